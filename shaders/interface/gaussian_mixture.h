@@ -76,10 +76,4 @@ INTERFACE_OFFSET(mixture_fit_constants, steps, 8)
 INTERFACE_OFFSET(mixture_fit_constants, prior, 12)
 INTERFACE_OFFSET(mixture_fit_constants, first_row, 16)
 
-// Push constants of the pass that copies a level of a map that was fitted before.
-struct mixture_restoring_constants {
-    uint first; // texel of the level, of those of all levels and layers
-};
-INTERFACE_SIZE(mixture_restoring_constants, 4)
-
 #endif

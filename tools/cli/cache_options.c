@@ -7,9 +7,10 @@ option cache_option_folder(cache_options *options) {
         .name = "cache",
         .kind = OPTION_TEXT,
         .argument = "DIR",
-        .summary = "cache folder for the filtered cubes of environments and the fitted mixtures of "
-                   "materials (default: lobe/environments, lobe/mixtures in the user's cache "
-                   "folder)",
+        .summary =
+            "cache folder for the filtered cubes of environments and the mixtures and reliefs of "
+            "materials (default: lobe/environments, lobe/mixtures in the user's cache "
+            "folder)",
         .target = &options->folder,
     };
 }
@@ -18,7 +19,7 @@ option cache_option_off(cache_options *options) {
     return (option){
         .name = "no-cache",
         .kind = OPTION_FLAG,
-        .summary = "neither load nor save filtered cubes and fitted mixtures",
+        .summary = "neither load nor save filtered cubes, mixtures and reliefs",
         .target = &options->off,
     };
 }

@@ -1,8 +1,10 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
+#include "passes/filters/displaced/kept_transfer.h"
 #include "passes/filters/displaced/relief.h"
 #include "passes/filters/displaced/transfer_map.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 #include "passes/maps/magnification.h"
 #include "passes/maps/parameter_averaging.h"
 #include "passes/upload/material_maps.h"
@@ -19,6 +21,7 @@ static const filter_knob order_knob = {
                     .initial = 1,
                     .choices = orders,
                     .sweep = "4,9"},
+    .decides_slots = true,
 };
 static const filter_knob azimuths_knob = {
     .description = {.name = "azimuths",
@@ -27,6 +30,7 @@ static const filter_knob azimuths_knob = {
                     .minimum = 4,
                     .maximum = 64,
                     .initial = 16},
+    .decides_slots = true,
 };
 static const filter_knob bounces_knob = {
     .description = {.name = "bounces",
@@ -36,6 +40,7 @@ static const filter_knob bounces_knob = {
                     .minimum = 1,
                     .maximum = 32,
                     .initial = 8},
+    .decides_slots = true,
 };
 static const filter_knob transfer_storage_knob = {
     .description = {.name = "transfer_storage",
@@ -43,6 +48,7 @@ static const filter_knob transfer_storage_knob = {
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = storages},
+    .decides_slots = true,
 };
 static const filter_knob *const knobs[] = {
     &order_knob,
@@ -63,10 +69,8 @@ static uint32_t order_of(const filter_context *context) {
     return values[passes_knob_choice(context, &order_knob)];
 }
 
-static transfer_map make_transfer(const filter_context *context, uint32_t index,
-                                  filtered_appearance *appearance) {
-    const device_material *material = &context->scene->materials[index];
-    const transfer_kind kind = {
+static transfer_kind kind_of(const filter_context *context, const device_material *material) {
+    return (transfer_kind){
         .order = order_of(context),
         .azimuths = (uint32_t)passes_knob_value(context, &azimuths_knob),
         .bounces = (uint32_t)passes_knob_value(context, &bounces_knob),
@@ -76,15 +80,29 @@ static transfer_map make_transfer(const filter_context *context, uint32_t index,
         .normals = material->material->model == LOBE_MATERIAL_MICROFACET,
         .coloured = passes_has_coloured_relief(material),
     };
-    transfer_map transfer = passes_transfer_map(context, index, &kind);
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
+    const transfer_kind kind = kind_of(context, &context->scene->materials[index]);
+    return passes_kept_transfer_prepare(context, index, &kind, slot);
+}
+
+/// false: not all of it is made yet.
+static bool make_transfer(const filter_context *context, uint32_t index, const void *prepared,
+                          transfer_map *transfer, filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const transfer_kind kind = kind_of(context, material);
+    if (!passes_kept_transfer_build(context, index, &kind, prepared, transfer))
+        return false;
     appearance->bytes +=
-        passes_reduced_map_bytes(&transfer.map, kind.format) +
-        (kind.normals ? passes_reduced_map_bytes(&transfer.facets, kind.format) : 0);
+        passes_reduced_map_bytes(&transfer->map, kind.format) +
+        (kind.normals ? passes_reduced_map_bytes(&transfer->facets, kind.format) : 0);
     appearance->base_texels +=
         (uint64_t)material->maps[MAP_HEIGHT].width * material->maps[MAP_HEIGHT].height;
     if (!kind.normals) // no shader reads them
-        transfer.facets.resource = lobe_graph_import_texture(context->graph, context->scene->white);
-    return transfer;
+        transfer->facets.resource =
+            lobe_graph_import_texture(context->graph, context->scene->white);
+    return true;
 }
 
 static transfer_map no_transfer(const filter_context *context) {
@@ -101,9 +119,11 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_parameter_averaging_build(context, instance, prepared, appearance);
     const uint32_t index = context->scene->instances[instance].material;
     const device_material *material = &context->scene->materials[index];
-    const bool has_relief = passes_has_relief(material);
-    const transfer_map transfer =
-        has_relief ? make_transfer(context, index, appearance) : no_transfer(context);
+    transfer_map transfer;
+    const bool has_relief = passes_has_relief(material) &&
+                            make_transfer(context, index, prepared, &transfer, appearance);
+    if (!has_relief)
+        transfer = no_transfer(context);
     const lobe_sampler sampler = {.texels = LOBE_SAMPLE_LINEAR,
                                   .levels = LOBE_SAMPLE_LINEAR,
                                   .maximum_anisotropy =
@@ -113,7 +133,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_bind(appearance, "closure_block", transfer.closure, (lobe_sampler){0});
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
-    const bool coloured = passes_has_coloured_relief(material);
+    const bool coloured = has_relief && passes_has_coloured_relief(material);
     const device_map *heights = &material->maps[MAP_HEIGHT];
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED, coloured);
     passes_appearance_specialise(
@@ -150,6 +170,10 @@ const lobe_filter passes_filter_displaced = {
     .shading = "displaced",
     .knobs = knobs,
     .reads_heights = true,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,
 };

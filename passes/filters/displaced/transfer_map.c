@@ -12,6 +12,7 @@ typedef struct transfer_build {
     lobe_graph *graph;
     const transfer_kind *kind;
     uint32_t material;
+    bool in_parts; ///< what later parts need is kept between frames
     relief relief;
     uint32_t facets;
     lobe_resource basis; ///< struct transfer_basis_constants
@@ -27,13 +28,15 @@ static lobe_resource declare_facets(const transfer_build *build, const char *nam
         &(lobe_buffer_description){.name = name, .size = (size_t)build->facets * bytes});
 }
 
-/// What colours do not change outlives the frame where these can.
+/// What colours do not change outlives the frame where these can, and what later parts need.
 static lobe_resource declare_kept(const transfer_build *build, const char *name, size_t size) {
     char of_material[64];
     snprintf(of_material, sizeof of_material, "%s of material %u", name, build->material);
     return lobe_graph_buffer(
-        build->graph, &(lobe_buffer_description){
-                          .name = of_material, .size = size, .retained = build->kind->coloured});
+        build->graph,
+        &(lobe_buffer_description){.name = of_material,
+                                   .size = size,
+                                   .retained = build->kind->coloured || build->in_parts});
 }
 
 static struct transfer_constants constants_of(const transfer_build *build) {
@@ -50,18 +53,6 @@ typedef struct kind_specialisation {
 static kind_specialisation specialisation_of(const transfer_kind *kind) {
     return (kind_specialisation){
         {{SPECIALISE_TRANSFER_ORDER, kind->order}, {SPECIALISE_TRANSFER_COLOURED, kind->coloured}}};
-}
-
-static void dispatch(const transfer_build *build, const char *shader, uint32_t threads,
-                     lobe_pass *pass) {
-    const struct transfer_constants constants = constants_of(build);
-    const kind_specialisation kind = specialisation_of(build->kind);
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = shader,
-                                              .threads = {threads},
-                                              .constants = &constants,
-                                              .constants_size = sizeof constants,
-                                              .specialisation = kind.items,
-                                              .specialisation_count = 2});
 }
 
 static uint32_t basis_cells(uint32_t quads) {
@@ -97,28 +88,87 @@ static void add_basis(transfer_build *build) {
                                               .constants_size = sizeof count});
 }
 
-static void add_transfer(transfer_build *build) {
-    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "facet_transfer");
-    passes_relief_read(&build->relief, pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->basis});
-    build->words = lobe_pass_write(
-        pass, &(lobe_binding){.name = "transfer_words",
-                              .resource =
-                                  declare_kept(build, "transfer of facets",
-                                               build->facets * TRANSFER_WORDS(build->kind->order) *
-                                                   sizeof(uint32_t))});
-    dispatch(build, "filters/displaced/facet_transfer.comp", build->facets / 2, pass);
+/// Threads of a pass that takes long are spread over several, so that each takes less than a second
+/// on lavapipe.
+typedef struct thread_bands {
+    uint32_t threads; ///< in all
+    uint32_t of_each; ///< but the last: a multiple of a group's
+} thread_bands;
+
+/// One thread a quad.
+static thread_bands transfer_bands(uint32_t facets, const transfer_kind *kind) {
+    enum { GROUP = 64, MOST_HORIZONS = 1 << 18 };
+    return (thread_bands){facets / 2, MOST_HORIZONS / kind->azimuths / GROUP * GROUP};
 }
 
-static void add_links(transfer_build *build) {
-    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "facet_links");
+/// One thread a facet.
+static thread_bands link_bands(uint32_t facets) {
+    enum { MOST_FACETS = 1 << 17 };
+    return (thread_bands){facets, MOST_FACETS};
+}
+
+static uint32_t band_count(thread_bands bands) {
+    return (bands.threads + bands.of_each - 1) / bands.of_each;
+}
+
+/// What the bands of a pass write, and the shader's name.
+typedef struct banded_pass {
+    const char *name, *shader;
+    const char *target;
+    bool reads_basis;
+} banded_pass;
+
+static lobe_pass *add_band(const transfer_build *build, const banded_pass *banded,
+                           thread_bands bands, uint32_t band, lobe_resource *target) {
+    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, banded->name);
     passes_relief_read(&build->relief, pass);
-    build->links = lobe_pass_write(
-        pass, &(lobe_binding){.name = "link_block",
-                              .resource =
-                                  declare_kept(build, "links of facets",
-                                               build->facets * TRANSFER_LINKS * sizeof(uint32_t))});
-    dispatch(build, "filters/displaced/facet_links.comp", build->facets, pass);
+    if (banded->reads_basis)
+        lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->basis});
+    const lobe_binding written = {.name = banded->target, .resource = *target};
+    *target = band == 0 ? lobe_pass_write(pass, &written) : lobe_pass_modify(pass, &written);
+    struct transfer_constants constants = constants_of(build);
+    constants.first_thread = band * bands.of_each;
+    const uint32_t left = bands.threads - constants.first_thread;
+    const kind_specialisation kind = specialisation_of(build->kind);
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = banded->shader,
+                                        .threads = {left < bands.of_each ? left : bands.of_each},
+                                        .constants = &constants,
+                                        .constants_size = sizeof constants,
+                                        .specialisation = kind.items,
+                                        .specialisation_count = 2});
+    return pass;
+}
+
+/// Adds up to `most` bands, and returns their number. Only the last one is kept: it needs those
+/// before it, whose own results are no longer there once it has run.
+static uint32_t add_bands(const transfer_build *build, const banded_pass *banded,
+                          thread_bands bands, uint32_t most, lobe_resource *target) {
+    const uint32_t all = band_count(bands), count = all < most ? all : most;
+    lobe_pass *last = NULL;
+    for (uint32_t band = 0; band < count; band++)
+        last = add_band(build, banded, bands, band, target);
+    if (build->in_parts && last)
+        lobe_pass_keep(last);
+    return count;
+}
+
+static uint32_t add_transfer(transfer_build *build, uint32_t most) {
+    static const banded_pass banded = {"facet_transfer", "filters/displaced/facet_transfer.comp",
+                                       "transfer_words", true};
+    build->words =
+        declare_kept(build, "transfer of facets",
+                     build->facets * TRANSFER_WORDS(build->kind->order) * sizeof(uint32_t));
+    return add_bands(build, &banded, transfer_bands(build->facets, build->kind), most,
+                     &build->words);
+}
+
+static uint32_t add_links(transfer_build *build, uint32_t most) {
+    static const banded_pass banded = {"facet_links", "filters/displaced/facet_links.comp",
+                                       "link_block", false};
+    build->links =
+        declare_kept(build, "links of facets", build->facets * TRANSFER_LINKS * sizeof(uint32_t));
+    return add_bands(build, &banded, link_bands(build->facets), most, &build->links);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -290,60 +340,101 @@ static lobe_resource add_closure(const transfer_build *build, const reduced_map 
 }
 
 /// What Vulkan asks of every device: buffers of 128 MiB.
-static bool fits(const filter_context *context, const device_material *material,
-                 const transfer_kind *kind) {
-    const uint64_t largest = (uint64_t)1 << 27;
+#define LARGEST_BUFFER ((uint64_t)1 << 27)
+
+/// Of each facet, words, links, and light of four functions.
+static uint64_t words_of_facet(const transfer_kind *kind) {
+    const uint64_t words = TRANSFER_WORDS(kind->order);
+    return words > TRANSFER_LINKS ? words : TRANSFER_LINKS;
+}
+
+bool passes_transfer_fits(const device_material *material, const transfer_kind *kind) {
     const device_map *map = &material->maps[MAP_HEIGHT];
     const uint64_t facets = 2 * (uint64_t)map->width * map->height;
-    // Of each facet, words, links, and light of four functions.
-    uint64_t words = TRANSFER_WORDS(kind->order);
-    words = words > TRANSFER_LINKS ? words : TRANSFER_LINKS;
-    if (facets * words * sizeof(uint32_t) <= largest)
-        return true;
+    return facets * words_of_facet(kind) * sizeof(uint32_t) <= LARGEST_BUFFER;
+}
+
+static void fail_size(const filter_context *context, const device_material *material,
+                      const transfer_kind *kind) {
+    const device_map *map = &material->maps[MAP_HEIGHT];
     lobe_graph_fail(context->graph, LOBE_ERROR_LIMIT,
                     "%s: a height map of %u x %u texels is too large for filter '%s': it has more "
                     "than %.1f million",
                     material->material->name, map->width, map->height,
-                    lobe_filter_name(context->filter), (double)(largest / words / 8) * 1e-6);
-    return false;
+                    lobe_filter_name(context->filter),
+                    (double)(LARGEST_BUFFER / words_of_facet(kind) / 8) * 1e-6);
+}
+
+transfer_map passes_transfer_map_declare(const filter_context *context, uint32_t index,
+                                         const transfer_kind *kind) {
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    char name[64];
+    snprintf(name, sizeof name, "transfer of material %u", index);
+    transfer_map result = {.map = passes_reduced_map_declare(context->graph, name, kind->format,
+                                                             heights->width, heights->height,
+                                                             layer_count(kind), true)};
+    if (!kind->normals)
+        return result;
+    snprintf(name, sizeof name, "normals of facets of material %u", index);
+    result.facets = passes_reduced_map_declare(context->graph, name, kind->format, heights->width,
+                                               heights->height, 2 * FACET_BINS, true);
+    return result;
+}
+
+uint32_t passes_transfer_images(const device_material *material, const transfer_kind *kind,
+                                kept_image images[2]) {
+    const device_map *heights = &material->maps[MAP_HEIGHT];
+    const uint32_t width = passes_half_extent(heights->width),
+                   height = passes_half_extent(heights->height),
+                   levels = passes_level_count(width, height);
+    images[0] = (kept_image){kind->format, width, height, layer_count(kind), levels};
+    images[1] = (kept_image){kind->format, width, height, 2 * FACET_BINS, levels};
+    return kind->normals ? 2 : 1;
+}
+
+uint32_t passes_transfer_part_count(const device_material *material, const transfer_kind *kind) {
+    const device_map *heights = &material->maps[MAP_HEIGHT];
+    const uint32_t facets = 2 * heights->width * heights->height;
+    return band_count(transfer_bands(facets, kind)) + band_count(link_bands(facets)) + 1;
+}
+
+/// Light between facets, the map and what belongs to it.
+static void add_map(const filter_context *context, transfer_build *build, transfer_map *result) {
+    build->colours = build->links;
+    if (build->kind->coloured)
+        add_colours(context, build);
+    for (uint32_t channel = 0; channel < (build->kind->coloured ? 3 : 1); channel++) {
+        add_bounces(build, channel);
+        add_cells(build, channel, &result->map);
+    }
+    passes_level_reduction(context->graph, &result->map);
+    if (build->kind->normals)
+        add_normals(build, &result->facets);
+    char name[64];
+    snprintf(name, sizeof name, "closure of material %u", build->material);
+    result->closure = add_closure(build, &result->map, name);
 }
 
 transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
-                                 const transfer_kind *kind) {
+                                 const transfer_kind *kind, uint32_t parts, bool in_parts) {
     const device_material *material = &context->scene->materials[index];
-    if (!fits(context, material, kind))
+    if (!passes_transfer_fits(material, kind)) {
+        fail_size(context, material, kind);
         return (transfer_map){0};
+    }
     transfer_build build = {
         .graph = context->graph,
         .kind = kind,
         .material = index,
-        .relief = passes_relief(context, index, false),
+        .in_parts = in_parts,
+        .relief = passes_relief(context, index, in_parts),
     };
-    const uint32_t width = build.relief.constants.width, height = build.relief.constants.height;
-    build.facets = 2 * width * height;
-    char name[64];
-    snprintf(name, sizeof name, "transfer of material %u", index);
-    transfer_map result = {.map =
-                               passes_reduced_map_declare(context->graph, name, kind->format, width,
-                                                          height, layer_count(kind), true)};
+    build.facets = 2 * build.relief.constants.width * build.relief.constants.height;
+    transfer_map result = passes_transfer_map_declare(context, index, kind);
     add_basis(&build);
-    add_transfer(&build);
-    add_links(&build);
-    build.colours = build.links;
-    if (kind->coloured)
-        add_colours(context, &build);
-    for (uint32_t channel = 0; channel < (kind->coloured ? 3 : 1); channel++) {
-        add_bounces(&build, channel);
-        add_cells(&build, channel, &result.map);
-    }
-    passes_level_reduction(context->graph, &result.map);
-    if (kind->normals) {
-        snprintf(name, sizeof name, "normals of facets of material %u", index);
-        result.facets = passes_reduced_map_declare(context->graph, name, kind->format, width,
-                                                   height, 2 * FACET_BINS, true);
-        add_normals(&build, &result.facets);
-    }
-    snprintf(name, sizeof name, "closure of material %u", index);
-    result.closure = add_closure(&build, &result.map, name);
+    parts -= add_transfer(&build, parts);
+    parts -= add_links(&build, parts);
+    if (parts > 0)
+        add_map(context, &build, &result);
     return result;
 }

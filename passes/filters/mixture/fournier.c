@@ -3,6 +3,7 @@
 #include "passes/filters/mixture/projected_map.h"
 #include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 #include "shaders/interface/gaussian_mixture.h"
 
 /// After k-means; twice as many change errors by a thirtieth.
@@ -67,8 +68,8 @@ const lobe_filter passes_filter_fournier = {
     .fetches_texels = true,
     .prepare = prepare,
     .adapts_to_texels = true,
-    .save = passes_mixture_save,
-    .forget = passes_mixture_forget,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,
 };

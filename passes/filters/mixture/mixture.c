@@ -4,6 +4,7 @@
 #include "passes/filters/mixture/knobs.h"
 #include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 
 static const char *const shapes[] = {"auto", "round", "oval", NULL};
 static const char *const colours[] = {"auto", "mean", "components", NULL};
@@ -99,7 +100,7 @@ const lobe_filter passes_filter_mixture = {
     .fetches_for_lights = true,
     .prepare = prepare,
     .adapts_to_texels = true,
-    .save = passes_mixture_save,
-    .forget = passes_mixture_forget,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
 };

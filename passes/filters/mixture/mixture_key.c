@@ -3,7 +3,7 @@
 #include "passes/context/digest.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
-#include "passes/filters/mixture/mixture_file.h"
+#include "passes/maps/kept/texels.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/upload/device_scene_parts.h"
 #include "passes/upload/material_maps.h"
@@ -47,30 +47,11 @@ uint64_t passes_mixture_inputs(const device_material *material, bool own_colours
 
 bool passes_mixture_has_texels(const filter_context *context, const device_material *material,
                                bool own_colours) {
-    for (uint32_t map = 0; map < MAP_COUNT; map++) {
-        const device_map *own = &material->maps[map];
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (is_read(material, map, own_colours) &&
-            (context->scene->scene->images[own->use->image].on_device || !own->texels->texels ||
-             lobe_format_size(own->format) == 0))
+            !passes_kept_has_texels(context, &material->maps[map]))
             return false;
-    }
     return true;
-}
-
-static uint64_t map_digest(const device_map *map, uint64_t digest) {
-    const lobe_texture_use *use = map->use;
-    const uint64_t numbers[] = {map->width,
-                                map->height,
-                                (uint64_t)map->format,
-                                (uint64_t)map->normals,
-                                (uint64_t)use->texture_coordinates,
-                                use->nearest,
-                                (uint64_t)use->wrap_u,
-                                (uint64_t)use->wrap_v};
-    digest = passes_digest_bytes(digest, numbers, sizeof numbers);
-    digest = passes_digest_bytes(digest, use->transform, sizeof use->transform);
-    return passes_digest_bytes(digest, map->texels->texels,
-                               (size_t)map->width * map->height * lobe_format_size(map->format));
 }
 
 uint64_t passes_mixture_key(const filter_context *context, const device_material *material,
@@ -83,6 +64,6 @@ uint64_t passes_mixture_key(const filter_context *context, const device_material
         digest = passes_digest(digest, (uint64_t)list.items[i].id << 32 | list.items[i].bits);
     for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (is_read(material, map, kind->own_colours))
-            digest = map_digest(&material->maps[map], passes_digest(digest, map));
+            digest = passes_kept_map_digest(&material->maps[map], passes_digest(digest, map));
     return digest;
 }

@@ -289,12 +289,12 @@ static uint32_t layer_count(const mixture_kind *kind) {
     return kind->own_colours ? 3 * kind->components + 1 : 2 * kind->components;
 }
 
-mixture_extent passes_mixture_extent(const device_material *material, const mixture_kind *kind) {
+kept_image passes_mixture_extent(const device_material *material, const mixture_kind *kind) {
     const lobe_grid grid = passes_lobe_grid(material);
-    mixture_extent extent = {.format = kind->format,
-                             .width = passes_half_extent(grid.width),
-                             .height = passes_half_extent(grid.height),
-                             .layers = layer_count(kind)};
+    kept_image extent = {.format = kind->format,
+                         .width = passes_half_extent(grid.width),
+                         .height = passes_half_extent(grid.height),
+                         .layers = layer_count(kind)};
     extent.levels = passes_level_count(extent.width, extent.height);
     return extent;
 }

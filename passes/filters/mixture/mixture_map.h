@@ -1,6 +1,7 @@
 #ifndef PASSES_FILTERS_MIXTURE_MIXTURE_MAP_H
 #define PASSES_FILTERS_MIXTURE_MIXTURE_MAP_H
 
+#include "passes/maps/kept/kept_file.h"
 #include "passes/maps/moment_map.h"
 
 /// What is fitted to each texel.
@@ -17,13 +18,7 @@ typedef struct mixture_kind {
 } mixture_kind;
 
 /// What a map of mixtures takes.
-typedef struct mixture_extent {
-    lobe_format format;
-    uint32_t width, height; ///< texels of level 0
-    uint32_t layers, levels;
-} mixture_extent;
-
-mixture_extent passes_mixture_extent(const device_material *material, const mixture_kind *kind);
+kept_image passes_mixture_extent(const device_material *material, const mixture_kind *kind);
 
 /// Adds the passes that fit a mixture of Gaussians to the lobes under each texel of each level,
 /// from the coarsest level to the finest: mixture_samples, mixture_root, mixture_fit for levels of

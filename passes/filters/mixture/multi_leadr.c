@@ -5,6 +5,7 @@
 #include "passes/filters/mixture/record.h"
 #include "passes/filters/slope_knobs.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/moment_bins.h"
 
@@ -65,8 +66,8 @@ const lobe_filter passes_filter_multi_leadr = {
     .knobs = knobs,
     .prepare = prepare,
     .adapts_to_texels = true,
-    .save = passes_mixture_save,
-    .forget = passes_mixture_forget,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,
 };

@@ -4,6 +4,7 @@
 #include "passes/filters/mixture/projected_map.h"
 #include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 #include "shaders/interface/gaussian_mixture.h"
 
 static const char *const starts[] = {"parent", "kmeans", NULL};
@@ -91,8 +92,8 @@ const lobe_filter passes_filter_tan = {
     .knobs = knobs,
     .prepare = prepare,
     .adapts_to_texels = true,
-    .save = passes_mixture_save,
-    .forget = passes_mixture_forget,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,
 };

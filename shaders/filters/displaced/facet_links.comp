@@ -19,7 +19,7 @@ mat3 frame_about(vec3 normal) {
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = transfer.first_thread + gl_GlobalInvocationID.x;
     if (index >= facet_count())
         return;
     facet own = facet_of(index);

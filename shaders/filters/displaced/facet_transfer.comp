@@ -33,7 +33,7 @@ void store(uint index, float polynomials[16]) {
 }
 
 void main() {
-    uint quad = gl_GlobalInvocationID.x;
+    uint quad = transfer.first_thread + gl_GlobalInvocationID.x;
     if (2u * quad >= facet_count())
         return;
     float lower[16], upper[16];

@@ -120,14 +120,16 @@ struct transfer_constants {
     uint width; // quads
     uint height;
     uint azimuths;
-    uint first;   // facet_bounces: 1 in the first step
-    uint channel; // of colour, where that varies
+    uint first;        // facet_bounces: 1 in the first step
+    uint channel;      // of colour, where that varies
+    uint first_thread; // of a band of facet_transfer or facet_links
 };
-INTERFACE_SIZE(transfer_constants, 20)
+INTERFACE_SIZE(transfer_constants, 24)
 INTERFACE_OFFSET(transfer_constants, height, 4)
 INTERFACE_OFFSET(transfer_constants, azimuths, 8)
 INTERFACE_OFFSET(transfer_constants, first, 12)
 INTERFACE_OFFSET(transfer_constants, channel, 16)
+INTERFACE_OFFSET(transfer_constants, first_thread, 20)
 
 // Push constants of facet_colours.
 struct colour_constants {

@@ -33,7 +33,7 @@ def test_fitted_mixtures_are_kept():
     def draw(name, *arguments, found):
         result = succeeds("render", SCENE, "--filter", "mixture", *SMALL, *arguments, "-o",
                           folder / name, XDG_CACHE_HOME=user)
-        check(("mixture_restoring" in result.stdout) == found, report(result))
+        check(("map_restoring" in result.stdout) == found, report(result))
         check(("mixture_level" in result.stdout) != found, report(result))
         return result
 

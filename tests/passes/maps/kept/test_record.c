@@ -1,5 +1,5 @@
-// Maps of mixtures that a renderer fits part by part, saves to a cache folder and loads from it:
-// pictures are the same, bit for bit, and only what the folder lacks is fitted.
+// Maps of mixtures and reliefs that a renderer makes part by part, saves to a cache folder and
+// loads from it: pictures are the same, bit for bit, and only what the folder lacks is made.
 
 #include <stdio.h>
 #include <string.h>
@@ -89,7 +89,7 @@ static bool fitted(const drawing *drawing) {
 }
 
 static bool restored(const drawing *drawing) {
-    return ran(drawing, "mixture_restoring") > 0;
+    return ran(drawing, "map_restoring") > 0;
 }
 
 static lobe_frame frame_of(drawing *drawing, const char *folder,
@@ -174,10 +174,10 @@ static const char *kept_file(void) {
     return path;
 }
 
-/// Shorter, longer, or with another byte: in the name, the version, the key, the extent, the sum,
+/// Shorter, longer, or with another byte: in the name, the version, the key, the layout, the sum,
 /// the units, the texels.
 static void damage(int kind) {
-    static const size_t places[] = {0, 12, 16, 28, 48, 60, 2000};
+    static const size_t places[] = {0, 12, 16, 28, 40, 60, 2000};
     uint8_t *data;
     size_t size;
     assert_int_equal(lobe_file_read(kept_file(), NULL, NULL, &data, &size), LOBE_OK);
@@ -452,6 +452,89 @@ static void nothing_is_saved_where_nothing_is_fitted(void **state) {
     assert_int_equal(kept(), 0);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Reliefs
+
+enum { RELIEF_WIDTH = 128, RELIEF_HEIGHT = 64, RELIEF_PARTS = 4 }; // of these, two bands
+
+/// Half metal, so that facets mirror, of colours that vary over the relief.
+static lobe_scene *relief_square(float red) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);
+    material.metallic = 0.5f;
+    material.base_colour[0] = red;
+    material.height_map = scene_add_map(scene, random_map(RELIEF_WIDTH, RELIEF_HEIGHT, 0, 1, 8));
+    material.height_scale = 2.0f / RELIEF_WIDTH;
+    material.base_colour_map = scene_add_map(scene, random_map(EXTENT, EXTENT, 0.2, 1, 7));
+    scene_add_square(scene, &material, 4, NULL);
+    scene_add_sun(scene, (double[]){0.4, 1, 0.2}, 3);
+    scene_look_from(scene, (double[]){0.5, 1, 0.3}, 1.5);
+    scene_end(scene);
+    return scene;
+}
+
+static void start_relief(fixture *f, const lobe_scene *scene, uint32_t parts, drawing *drawing) {
+    start(f, scene, "displaced", drawing);
+    drawing->settings[0] = "azimuths=64";
+    drawing->parts = parts;
+}
+
+static void reliefs_are_kept_and_made_in_parts(void **state) {
+    lobe_scene *scene = relief_square(0.8f);
+    drawing drawing;
+    start_relief(*state, scene, 0, &drawing);
+    const uint64_t expected = picture(&drawing, NULL);
+    assert_int_equal(ran(&drawing, "facet_transfer"), 2);
+    stop(&drawing);
+    start_relief(*state, scene, 1, &drawing);
+    for (uint32_t left = RELIEF_PARTS; left-- > 0;) {
+        assert_int_equal(kept(), 0);
+        assert_true((picture(&drawing, test_folder.path) == expected) == (left == 0));
+        assert_int_equal(drawing.parts_left, left);
+        assert_int_equal(ran(&drawing, "facet_transfer"), left >= 2);
+        assert_int_equal(ran(&drawing, "facet_links"), left == 1);
+    }
+    assert_int_equal(kept(), 1);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(ran(&drawing, NULL), 1);
+    stop(&drawing);
+    start_relief(*state, scene, 1, &drawing);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(ran(&drawing, "facet_transfer") + ran(&drawing, "cell_transfer"), 0);
+    assert_true(restored(&drawing));
+    assert_true(picture(&drawing, NULL) == expected);
+    assert_int_equal(ran(&drawing, NULL), 1);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Heights, their scale, colours and settings have files of their own; what does not matter shares
+/// one.
+static void what_a_relief_is_made_from_has_its_file(void **state) {
+    size_t files = 0;
+    for (int change = 0; change < 6; change++) {
+        lobe_scene *scene = relief_square(change == 1 ? 0.7f : 0.8f);
+        lobe_material *material = &scene->materials[0];
+        if (change == 2)
+            turn(scene, 0);
+        if (change == 3)
+            turn(scene, 1);
+        if (change == 4)
+            material->height_scale *= 0.5f;
+        if (change == 5)
+            material->emissive[0] = 0.25f;
+        drawing drawing;
+        start_relief(*state, scene, 0, &drawing);
+        drawing.settings[0] = "azimuths=4";
+        (void)picture(&drawing, test_folder.path);
+        files += change < 5;
+        assert_int_equal(kept(), files);
+        assert_true(restored(&drawing) == (change == 5));
+        stop(&drawing);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(one_renderer_saves_and_another_loads),
@@ -466,6 +549,8 @@ int main(void) {
         IN_TEST_FOLDER(submitted_frames_are_saved_by_the_next),
         cmocka_unit_test(an_unwritable_folder_is_warned_of_once),
         IN_TEST_FOLDER(nothing_is_saved_where_nothing_is_fitted),
+        IN_TEST_FOLDER(reliefs_are_kept_and_made_in_parts),
+        IN_TEST_FOLDER(what_a_relief_is_made_from_has_its_file),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }

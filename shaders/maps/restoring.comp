@@ -3,21 +3,21 @@
 
 // One level of a map from an image in which all levels' texels follow each other, row by row.
 
-#include "interface/gaussian_mixture.h"
-
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D stored_map;
-layout(set = 0, binding = 16) uniform writeonly image2DArray moment_map;
+layout(set = 0, binding = 16) uniform writeonly image2DArray target_map;
 
-layout(push_constant) uniform constants_block { mixture_restoring_constants constants; };
+layout(push_constant) uniform constants_block {
+    uint first; // texel of the level, of those of all levels and layers
+};
 
 void main() {
-    uvec3 position = gl_GlobalInvocationID, size = uvec3(imageSize(moment_map));
+    uvec3 position = gl_GlobalInvocationID, size = uvec3(imageSize(target_map));
     if (any(greaterThanEqual(position, size)))
         return;
     uint row = uint(textureSize(stored_map, 0).x);
-    uint texel = constants.first + (position.z * size.y + position.y) * size.x + position.x;
-    imageStore(moment_map, ivec3(position),
+    uint texel = first + (position.z * size.y + position.y) * size.x + position.x;
+    imageStore(target_map, ivec3(position),
                texelFetch(stored_map, ivec2(texel % row, texel / row), 0));
 }

@@ -1,0 +1,102 @@
+#include "passes/filters/displaced/kept_transfer.h"
+
+#include "passes/context/digest.h"
+#include "passes/context/fit_work.h"
+#include "passes/filters/displaced/relief.h"
+#include "passes/maps/kept/record.h"
+#include "passes/maps/kept/texels.h"
+
+/// Increment it whenever the same relief gets other maps: old files are then no longer found.
+enum { TRANSFER_FILE_VERSION = 1 };
+
+static uint64_t kind_digest(const transfer_kind *kind) {
+    const uint64_t numbers[] = {kind->order,   kind->azimuths,
+                                kind->bounces, (uint64_t)kind->format,
+                                kind->normals, kind->coloured};
+    return passes_digest_bytes(TRANSFER_FILE_VERSION, numbers, sizeof numbers);
+}
+
+/// The maps that are read, by MAP_...
+static bool is_read(const device_material *material, const transfer_kind *kind, uint32_t map) {
+    return map == MAP_HEIGHT || (kind->coloured && material->maps[map].use &&
+                                 (map == MAP_BASE_COLOUR || map == MAP_WIDTH));
+}
+
+/// The numbers that are read.
+static uint64_t numbers_digest(const device_material *material, const transfer_kind *kind,
+                               uint64_t digest) {
+    const lobe_material *source = material->material;
+    digest = passes_digest_bytes(digest, &source->height_scale, sizeof source->height_scale);
+    if (!kind->coloured)
+        return digest;
+    digest = passes_digest_bytes(digest, material->values.base_colour,
+                                 sizeof material->values.base_colour);
+    digest =
+        passes_digest_bytes(digest, &material->values.metallic, sizeof material->values.metallic);
+    return passes_digest(digest, material->metallic_varies);
+}
+
+static uint64_t inputs_digest(const device_material *material, const transfer_kind *kind) {
+    uint64_t digest = numbers_digest(material, kind, material->parameter_version);
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (is_read(material, kind, map))
+            digest = passes_digest(digest, material->texel_versions[map]);
+    return digest;
+}
+
+static uint64_t key(const filter_context *context, uint32_t index, const void *user) {
+    const device_material *material = &context->scene->materials[index];
+    const transfer_kind *kind = user;
+    uint64_t digest = numbers_digest(material, kind, kind_digest(kind));
+    digest = passes_digest(digest, (uint64_t)material->material->model);
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (is_read(material, kind, map))
+            digest = passes_kept_map_digest(&material->maps[map], passes_digest(digest, map));
+    return digest;
+}
+
+static bool has_texels(const filter_context *context, const device_material *material,
+                       const transfer_kind *kind) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (is_read(material, kind, map) && !passes_kept_has_texels(context, &material->maps[map]))
+            return false;
+    return true;
+}
+
+lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t index,
+                                         const transfer_kind *kind, void **slot) {
+    const device_material *material = &context->scene->materials[index];
+    if (!context->work || context->work->is_dry || !passes_has_relief(material) ||
+        !passes_transfer_fits(material, kind))
+        return LOBE_OK;
+    kept_subject subject = {
+        .kind = kind_digest(kind),
+        .inputs = inputs_digest(material, kind),
+        .parts = passes_transfer_part_count(material, kind),
+        .has_texels = has_texels(context, material, kind),
+        .layout = {.what = "relief", .buffer_bytes = sizeof(struct transfer_closure_constants)},
+        .key = key,
+        .user = kind,
+    };
+    subject.layout.image_count = passes_transfer_images(material, kind, subject.layout.images);
+    return passes_kept_prepare(context, index, &subject, slot);
+}
+
+bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
+                                const transfer_kind *kind, const void *prepared,
+                                transfer_map *transfer) {
+    const stored_content *stored = passes_kept_stored(context, prepared);
+    if (stored) {
+        *transfer = passes_transfer_map_declare(context, index, kind);
+        passes_restoring(context->graph, stored, 0, &transfer->map);
+        if (kind->normals)
+            passes_restoring(context->graph, stored, 1, &transfer->facets);
+        transfer->closure = lobe_graph_import_buffer(context->graph, stored->buffer);
+        return true;
+    }
+    bool in_parts;
+    const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
+    *transfer = passes_transfer_map(context, index, kind, parts, in_parts);
+    const lobe_resource images[] = {transfer->map.resource, transfer->facets.resource};
+    return passes_kept_built(context, prepared, images, transfer->closure);
+}

@@ -1,0 +1,160 @@
+#include "passes/maps/kept/kept_file.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <lobe/file.h>
+
+#include "passes/context/digest.h"
+#include "passes/maps/level_reduction.h"
+
+/// All members are compared with what a file must have; then come the buffer and the images' rows.
+typedef struct file_header {
+    char name[8];
+    uint32_t byte_order;
+    uint32_t version; ///< of this header
+    uint64_t key;
+    uint64_t layout; ///< digest
+    uint64_t bytes;  ///< of what follows
+    uint64_t checksum;
+} file_header;
+
+_Static_assert(sizeof(file_header) == 48, "file_header has no gaps");
+
+static size_t image_bytes(const kept_image *image) {
+    const reduced_map map = {.width = image->width,
+                             .height = image->height,
+                             .layers = image->layers,
+                             .levels = image->levels};
+    return passes_reduced_map_bytes(&map, image->format);
+}
+
+uint32_t passes_kept_rows(const kept_image *image) {
+    const size_t row = KEPT_FILE_ROW * lobe_format_size(image->format);
+    return (uint32_t)((image_bytes(image) + row - 1) / row);
+}
+
+static size_t row_bytes(const kept_image *image) {
+    return (size_t)passes_kept_rows(image) * KEPT_FILE_ROW * lobe_format_size(image->format);
+}
+
+/// Of the buffer in a file, so that images lie well aligned.
+static size_t buffer_bytes(const kept_layout *layout) {
+    return ((size_t)layout->buffer_bytes + 15) / 16 * 16;
+}
+
+static size_t content_bytes(const kept_layout *layout) {
+    size_t bytes = buffer_bytes(layout);
+    for (uint32_t i = 0; i < layout->image_count; i++)
+        bytes += row_bytes(&layout->images[i]);
+    return bytes;
+}
+
+static uint64_t layout_digest(const kept_layout *layout) {
+    uint64_t digest = passes_digest(layout->image_count, layout->buffer_bytes);
+    for (uint32_t i = 0; i < layout->image_count; i++) {
+        const kept_image *image = &layout->images[i];
+        const uint64_t numbers[] = {(uint64_t)image->format, image->width, image->height,
+                                    image->layers, image->levels};
+        digest = passes_digest_bytes(digest, numbers, sizeof numbers);
+    }
+    return digest;
+}
+
+static file_header header_of(uint64_t key, const kept_layout *layout, const uint8_t *content) {
+    const size_t bytes = content_bytes(layout);
+    return (file_header){.name = "lobe map",
+                         .byte_order = 0x01020304,
+                         .version = 1,
+                         .key = key,
+                         .layout = layout_digest(layout),
+                         .bytes = bytes,
+                         .checksum = passes_digest_bytes(0, content, bytes)};
+}
+
+/// The caller frees it with lobe_release. NULL if out of memory.
+static char *path_of(const lobe_host *host, const char *folder, uint64_t key,
+                     const kept_layout *layout) {
+    const size_t size = strlen(folder) + strlen(layout->what) + 24;
+    char *path = lobe_allocate(lobe_host_allocator(host), size, 1);
+    if (path)
+        snprintf(path, size, "%s/%s.%s", folder, passes_digest_print(key).text, layout->what);
+    return path;
+}
+
+static bool is_whole(const uint8_t *file, size_t size, uint64_t key, const kept_layout *layout) {
+    if (size != sizeof(file_header) + content_bytes(layout))
+        return false;
+    const file_header expected = header_of(key, layout, file + sizeof expected);
+    return memcmp(file, &expected, sizeof expected) == 0;
+}
+
+static bool load_file(const char *path, uint64_t key, const kept_layout *layout,
+                      const lobe_host *host, kept_content *content) {
+    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
+    size_t size;
+    if (lobe_file_read(path, NULL, &silent, &content->file, &size) != LOBE_OK)
+        return false;
+    if (!is_whole(content->file, size, key, layout)) {
+        passes_kept_content_free(content);
+        return false;
+    }
+    uint8_t *next = content->file + sizeof(file_header);
+    content->buffer = next;
+    next += buffer_bytes(layout);
+    for (uint32_t i = 0; i < layout->image_count; i++) {
+        const kept_image *image = &layout->images[i];
+        content->rows[i] =
+            (lobe_image){image->format, KEPT_FILE_ROW, passes_kept_rows(image), next};
+        next += row_bytes(image);
+    }
+    return true;
+}
+
+bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *layout,
+                           const lobe_host *host, kept_content *content) {
+    *content = (kept_content){0};
+    char *path = path_of(host, folder, key, layout);
+    const bool there = path && access(path, F_OK) == 0;
+    const bool loaded = there && load_file(path, key, layout, host, content);
+    if (there && !loaded)
+        lobe_host_log(host, LOBE_LOG_NOTICE, "%s: not a cached %s, or damaged: it will be replaced",
+                      path, layout->what);
+    lobe_release(path);
+    return loaded;
+}
+
+void passes_kept_content_free(kept_content *content) {
+    lobe_release(content->file);
+    *content = (kept_content){0};
+}
+
+static lobe_result save_file(const char *path, uint64_t key, const kept_layout *layout,
+                             const void *const *images, const void *buffer, const lobe_host *host) {
+    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
+    const size_t size = sizeof(file_header) + content_bytes(layout);
+    uint8_t *file = lobe_allocate(silent.allocator, size, 1);
+    if (!file)
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    uint8_t *content = file + sizeof(file_header), *next = content + buffer_bytes(layout);
+    memcpy(content, buffer, layout->buffer_bytes);
+    for (uint32_t i = 0; i < layout->image_count; i++) {
+        memcpy(next, images[i], image_bytes(&layout->images[i]));
+        next += row_bytes(&layout->images[i]);
+    }
+    const file_header header = header_of(key, layout, content);
+    memcpy(file, &header, sizeof header);
+    const lobe_result result = lobe_file_write(path, file, size, &silent);
+    lobe_release(file);
+    return result;
+}
+
+void passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
+                           const void *const *images, const void *buffer, const lobe_host *host) {
+    char *path = path_of(host, folder, key, layout);
+    if (!path || save_file(path, key, layout, images, buffer, host) != LOBE_OK)
+        lobe_host_log(host, LOBE_LOG_WARNING, "%s: cannot save the %s in this folder", folder,
+                      layout->what);
+    lobe_release(path);
+}

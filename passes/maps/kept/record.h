@@ -1,0 +1,47 @@
+#ifndef PASSES_MAPS_KEPT_RECORD_H
+#define PASSES_MAPS_KEPT_RECORD_H
+
+#include "passes/context/filter.h"
+#include "passes/maps/kept/restoring.h"
+
+/// What is kept, from frame to frame, of maps of a material that take seconds to make, in a
+/// filter's slot: how much of them is made, and what a cache folder has of them. Texels that
+/// replace others are taken in one frame, and not saved: they may change again in the next.
+
+/// How a material's maps are made with the settings of this frame.
+typedef struct kept_subject {
+    uint64_t kind;   ///< digest of the settings
+    uint64_t inputs; ///< digest of what they are made from, within this process
+    uint32_t parts;  ///< of the work
+    bool has_texels; ///< the host has all that they are made from
+    kept_layout layout;
+    /// A digest of all that they are made from, texels included, for a file's name. Called once,
+    /// where the host has the texels.
+    uint64_t (*key)(const filter_context *context, uint32_t material, const void *user);
+    const void *user;
+} kept_subject;
+
+typedef struct kept_record kept_record;
+
+/// For lobe_filter.prepare of a filter that adapts to texels: looks for the maps in the frame's
+/// cache folder when they are first needed, and takes as much of the frame's work as is left to do.
+lobe_result passes_kept_prepare(const filter_context *context, uint32_t material,
+                                const kept_subject *subject, void **slot);
+/// For lobe_filter.forget.
+void passes_kept_forget(void *slot);
+/// For lobe_filter.save.
+void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
+                      const lobe_host *host);
+
+/// Parts that are to be made until this frame's end. UINT32_MAX, and `*in_parts` false: all at
+/// once. `record`: what the slot holds, or NULL.
+uint32_t passes_kept_parts(const filter_context *context, const kept_record *record,
+                           bool *in_parts);
+/// What a folder had of the maps; NULL: nothing, so they are to be made.
+const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record);
+/// Says that all passes are declared that make the maps, so that they may be saved. Returns whether
+/// all of them are made in this frame or before. `images`, `buffer`: as in the layout.
+bool passes_kept_built(const filter_context *context, const kept_record *record,
+                       const lobe_resource *images, lobe_resource buffer);
+
+#endif
