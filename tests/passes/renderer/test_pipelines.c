@@ -154,11 +154,13 @@ static int drag(fixture *f, const char *filter, const lobe_knob *knob) {
 
 static void check_number(fixture *f, const lobe_filter *filter, const filter_knob *knob) {
     const char *name = lobe_filter_name(filter);
+    // Where a number leaves code out (one that compiles does at 0, `bias` where it keeps level 0
+    // from being seen), there is one pipeline without it and one with it.
     draw_at(f, name, &knob->description, knob->description.initial);
-    if (knob->compiles) { // its code is left out at 0: one pipeline without it, one with it
+    draw_at(f, name, &knob->description, knob->description.minimum);
+    draw_at(f, name, &knob->description, knob->description.maximum);
+    if (knob->compiles)
         draw_at(f, name, &knob->description, 0);
-        draw_at(f, name, &knob->description, knob->description.maximum);
-    }
     faults.pipelines = 0;
     const int different = drag(f, name, &knob->description);
     if (faults.pipelines)
