@@ -12,7 +12,6 @@
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/displacement/facet_bins.glsl"
-#include "filters/displaced/functions.glsl"
 #include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
 
@@ -26,55 +25,36 @@ layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 
 layout(LOBE_DESCRIPTOR(33)) uniform sampler2DArray transfer_map;
-layout(LOBE_DESCRIPTOR(34), std430) readonly buffer closure_block {
+layout(LOBE_DESCRIPTOR(34), std140) uniform closure_block {
     transfer_closure_constants closure;
 };
 layout(LOBE_DESCRIPTOR(35)) uniform sampler2DArray facet_map;
 
-vec4 function_factors(uint place) {
-    return closure.basis.functions[place];
-}
-
-// A direction, or light, by coefficients: in all polynomials, and in the map's functions.
-struct transfer_light {
-    float polynomials[16];
-    float functions[9]; // as far as they are used
-};
-
-void find_functions(inout transfer_light light) {
-    for (uint k = 0u; k < ORDER; ++k)
-        light.functions[k] = function_of(k, light.polynomials);
-}
-
-// 0 below the horizon.
-transfer_light light_from(vec3 direction) {
-    transfer_light light;
-    transfer_polynomials(direction, light.polynomials);
-    find_functions(light);
-    return light;
+// Whether the relief's facets mirror light.
+bool has_facets() {
+    return RELIEF && MODEL == MODEL_MICROFACET;
 }
 
 const uint CHANNELS = COLOURED ? 3u : 1u;
+const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
+const uint FIRST_LAYERS = TRANSFER_FIRST_LAYERS(ORDER);
+const uint FURTHER_LAYERS = TRANSFER_FURTHER_LAYERS(ORDER);
+const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS : FIRST_LAYERS;
 
-// Light towards the viewer, for each function of the light's direction, of each channel: a white
-// relief's (or the coloured one's) at once, and what it gets from other facets as well.
-struct transfer_to_viewer {
-    float direct[3][9];
-    float indirect[3][TRANSFER_INDIRECT];
-    float area[9]; // what is seen of it, by the viewer's direction
-    float cosine;  // of the viewer's direction
-    float lacking; // what a white relief lacks towards the viewer
-    vec3 colour;   // the mean diffuse colour, if it varies
-    float visible; // the area that the viewer sees, over the map's mean of it
-};
-
-// What a pixel's lights share.
+// What a pixel's lights share. Sums over the map's functions are written as sums over the
+// polynomials that these consist of, so that a light only needs its polynomials.
 struct relief_footprint {
     vec3 viewer;
-    transfer_to_viewer transfer;
-    float seen;         // of the facets' area that faces the viewer
+    // Light towards the viewer, by the light's polynomials, of each channel: a white relief's (or
+    // the coloured one's) at once, and what it gets from other facets as well.
+    float direct[3][16];
+    float indirect[3][16];
+    float area[16]; // that is seen of the facets, by the viewer's polynomials
+    vec3 colour;    // the mean diffuse colour, if it varies
+    float visible;  // the area that the viewer sees, over the map's mean of it
+    float seen;     // of the facets' area that faces the viewer
     light_sum lights[4];
-    float shone_on[4];  // of the facets' area that faces the light
+    float shone_on[4]; // of the facets' area that faces the light
 };
 relief_footprint drawn;
 
@@ -86,85 +66,106 @@ map_area transfer_area(surface_point surface) {
     return area;
 }
 
-const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
-const uint INDIRECT_END = DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT;
-const uint VISIBLE_ENTRIES = TRANSFER_ENTRIES(ORDER);
+vec4 transfer_layers[LAYERS];
 
-// Adds four entries, of matrices or of the visible area, times the viewer's functions.
-void add_entries(inout transfer_to_viewer transfer, transfer_light outgoing, vec4 entries,
-                 uint channel, uint layer, inout uint row, inout uint column) {
-    for (uint i = 0u; i < 4u; ++i) {
-        uint place = 4u * layer + i;
-        if (place == DIRECT_ENTRIES)
-            row = column = 0u;
-        if (place < DIRECT_ENTRIES) {
-            transfer.direct[channel][row] += entries[i] * outgoing.functions[column];
-            if (row != column)
-                transfer.direct[channel][column] += entries[i] * outgoing.functions[row];
-        } else if (place < INDIRECT_END) {
-            transfer.indirect[channel][row] += entries[i] * outgoing.polynomials[column];
-            if (row != column)
-                transfer.indirect[channel][column] += entries[i] * outgoing.polynomials[row];
-        } else if (place == INDIRECT_END) {
-            transfer.colour[channel] = entries[i];
-        } else if (channel == 0u && place < VISIBLE_ENTRIES + ORDER) {
-            transfer.area[place - VISIBLE_ENTRIES] = entries[i];
-        }
-        if (++column > row) {
-            column = 0u;
-            ++row;
-        }
+void fetch_transfer(map_area area) {
+    for (uint layer = 0u; layer < LAYERS; ++layer)
+        transfer_layers[layer] = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i)
+        for (uint layer = 0u; layer < LAYERS; ++layer)
+            transfer_layers[layer] += fetch_probe(transfer_map, layer, area, i);
+    float share = 1.0 / float(probes_of(area));
+    for (uint layer = 0u; layer < LAYERS; ++layer)
+        transfer_layers[layer] *= share;
+}
+
+float entry(uint place) {
+    return transfer_layers[place / 4u][place % 4u];
+}
+
+// Of a symmetric matrix that begins at an entry.
+float entry_of_matrix(uint first, uint i, uint j) {
+    uint row = max(i, j), column = min(i, j);
+    return entry(first + row * (row + 1u) / 2u + column);
+}
+
+float function_factor(uint function, uint polynomial) {
+    return closure.basis.functions[4u * function + polynomial / 4u][polynomial % 4u];
+}
+
+// Factors of the map's functions, as those of the polynomials.
+void in_polynomials(float functions[ORDER], out float polynomials[16]) {
+    for (uint i = 0u; i < 16u; ++i) {
+        polynomials[i] = 0.0;
+        for (uint k = 0u; k < ORDER; ++k)
+            polynomials[i] += function_factor(k, i) * functions[k];
     }
 }
 
-float product_with_lacking(transfer_light light) {
+float product(float a[16], float b[16]) {
     float sum = 0.0;
-    for (uint k = 0u; k < 16u; ++k)
-        sum += closure.lacking[k / 4u][k % 4u] * light.polynomials[k];
+    for (uint i = 0u; i < 16u; ++i)
+        sum += a[i] * b[i];
     return sum;
 }
 
-// The closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
-float closing_light(transfer_light light) {
-    float cosine = TRANSFER_COSINE * light.polynomials[0];
-    return INVERSE_PI * (drawn.transfer.lacking * cosine +
-                         drawn.transfer.cosine * (product_with_lacking(light) -
-                                                  INVERSE_PI * closure.lost * cosine));
+float product_with(vec4 factors[4], float polynomials[16]) {
+    float sum = 0.0;
+    for (uint i = 0u; i < 16u; ++i)
+        sum += factors[i / 4u][i % 4u] * polynomials[i];
+    return sum;
 }
 
-// The area of the footprint that is seen from a direction, over the map's mean.
-float visible_area(transfer_to_viewer transfer, transfer_light light) {
-    float sum = 0.0, mean = 0.0;
+// An area that is seen from a direction, over the map's mean of it.
+float relative_area(float area, float polynomials[16]) {
+    return max(area / max(product_with(closure.visible, polynomials), 1e-6), LEAST_VISIBLE);
+}
+
+// Adds the closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
+void close(float viewer[16]) {
+    float cosine = INVERSE_PI * TRANSFER_COSINE * viewer[0];
+    for (uint i = 0u; i < 16u; ++i)
+        drawn.indirect[0][i] += cosine * closure.lacking[i / 4u][i % 4u];
+    drawn.indirect[0][0] += TRANSFER_COSINE * (INVERSE_PI * product_with(closure.lacking, viewer) -
+                                               INVERSE_PI * closure.lost * cosine);
+}
+
+void gather_channel(uint channel, float viewer[16], float functions[ORDER]) {
+    uint first = channel == 0u ? 0u : 4u * (FIRST_LAYERS + (channel - 1u) * FURTHER_LAYERS);
+    float direct[ORDER];
+    for (uint i = 0u; i < ORDER; ++i) {
+        direct[i] = 0.0;
+        for (uint j = 0u; j < ORDER; ++j)
+            direct[i] += entry_of_matrix(first, i, j) * functions[j];
+    }
+    in_polynomials(direct, drawn.direct[channel]);
+    for (uint i = 0u; i < 16u; ++i)
+        drawn.indirect[channel][i] = 0.0;
+    for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
+        for (uint j = 0u; j < TRANSFER_INDIRECT; ++j)
+            drawn.indirect[channel][i] += entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer[j];
+    drawn.colour[channel] = entry(first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
+}
+
+void gather_relief(surface_point surface) {
+    drawn.viewer = viewer_of(surface);
+    fetch_transfer(transfer_area(surface));
+    float viewer[16], functions[ORDER], area[ORDER], seen = 0.0;
+    transfer_polynomials(drawn.viewer, viewer);
     for (uint k = 0u; k < ORDER; ++k) {
-        sum += transfer.area[k] * light.functions[k];
-        mean += closure.visible[k / 4u][k % 4u] * light.functions[k];
+        functions[k] = 0.0;
+        for (uint i = 0u; i < 16u; ++i)
+            functions[k] += function_factor(k, i) * viewer[i];
+        area[k] = entry(TRANSFER_ENTRIES(ORDER) + k);
+        seen += area[k] * functions[k];
     }
-    return max(sum / max(mean, 1e-6), LEAST_VISIBLE);
-}
-
-transfer_to_viewer fetch_transfer(surface_point surface, vec3 viewer) {
-    transfer_to_viewer transfer;
-    transfer_light outgoing = light_from(viewer);
-    for (uint k = 0u; k < 9u; ++k)
-        transfer.area[k] = 0.0;
-    map_area area = transfer_area(surface);
-    uint first = 0u;
-    for (uint channel = 0u; channel < CHANNELS; ++channel) {
-        for (uint k = 0u; k < 9u; ++k)
-            transfer.direct[channel][k] = 0.0;
-        for (uint k = 0u; k < TRANSFER_INDIRECT; ++k)
-            transfer.indirect[channel][k] = 0.0;
-        uint row = 0u, column = 0u;
-        uint layers = channel == 0u ? TRANSFER_FIRST_LAYERS(ORDER) : TRANSFER_FURTHER_LAYERS(ORDER);
-        for (uint layer = 0u; layer < layers; ++layer)
-            add_entries(transfer, outgoing, filtered_layer(transfer_map, area, first + layer),
-                        channel, layer, row, column);
-        first += layers;
-    }
-    transfer.cosine = TRANSFER_COSINE * outgoing.polynomials[0];
-    transfer.lacking = product_with_lacking(outgoing);
-    transfer.visible = visible_area(transfer, outgoing);
-    return transfer;
+    for (uint channel = 0u; channel < CHANNELS; ++channel)
+        gather_channel(channel, viewer, functions);
+    if (!COLOURED)
+        close(viewer);
+    drawn.visible = relative_area(seen, viewer);
+    if (has_facets())
+        in_polynomials(area, drawn.area);
 }
 
 // Of light between facets, by albedo: sums of powers, each less than the one before by the same
@@ -179,19 +180,16 @@ struct reflected_light {
     vec3 indirect;
 };
 
-// Adds a channel's.
-void reflect_channel(inout reflected_light reflected, uint channel, transfer_light light) {
+// Of light of each channel, by its polynomials.
+void reflect_channel(inout reflected_light reflected, uint channel, float light[16]) {
     uint of_map = COLOURED ? channel : 0u;
-    vec2 sum = vec2(0.0, COLOURED ? 0.0 : closing_light(light));
-    for (uint k = 0u; k < ORDER; ++k)
-        sum.x += light.functions[k] * drawn.transfer.direct[of_map][k];
-    for (uint k = 0u; k < TRANSFER_INDIRECT; ++k)
-        sum.y += light.polynomials[k] * drawn.transfer.indirect[of_map][k];
-    reflected.direct[channel] = sum.x;
-    reflected.indirect[channel] = sum.y;
+    reflected.direct[channel] = product(drawn.direct[of_map], light);
+    reflected.indirect[channel] = product(drawn.indirect[of_map], light);
 }
 
-reflected_light reflect_light(transfer_light light) {
+reflected_light reflect_light(vec3 incoming) {
+    float light[16];
+    transfer_polynomials(incoming, light);
     reflected_light reflected;
     reflect_channel(reflected, 0u, light);
     reflected.direct = reflected.direct.rrr;
@@ -216,7 +214,7 @@ vec3 tint_of(base_material base, surface_point surface) {
                             map_coordinates(MAP_HEIGHT, surface.coordinates_dx, 0.0),
                             map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0), size, true)
                       .level;
-    vec3 found = (base.diffuse + 0.01) / (tint * drawn.transfer.colour + 0.01);
+    vec3 found = (base.diffuse + 0.01) / (tint * drawn.colour + 0.01);
     return tint * mix(min(found, 4.0), vec3(1.0), min(level, 1.0));
 }
 
@@ -233,15 +231,11 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
         vec3 share = indirect_share(albedo) + indirect_share(mirrored_part(base));
         sum = albedo * reflected.direct + share * reflected.indirect;
     }
-    return max(sum, 0.0) / (drawn.viewer.z * drawn.transfer.visible);
+    return max(sum, 0.0) / (drawn.viewer.z * drawn.visible);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Microfacets of the facets
-
-bool has_facets() {
-    return RELIEF && MODEL == MODEL_MICROFACET;
-}
 
 plane_bin facet_bin(surface_point surface, map_area area, uint index, float width) {
     vec4 place = filtered_layer(facet_map, area, 2u * index);
@@ -272,8 +266,7 @@ struct facet_areas {
 };
 
 void take_area(inout facet_areas areas, uint index, plane_bin bin, float width) {
-    areas.normals[index] =
-        normal_spread_of(bin.mean, bin.places + second_moments_of(bin.mean));
+    areas.normals[index] = normal_spread_of(bin.mean, bin.places + second_moments_of(bin.mean));
     areas.sizes[index] = bin.mass / plane_mass(MODEL, distribution_kind(), width);
 }
 
@@ -289,7 +282,9 @@ float facing_area(facet_areas areas, vec3 direction) {
 // The part of the area that faces a direction that is also seen from there: the one by the facets'
 // normals alone, the other by their horizons.
 float seen_part(float facing, vec3 direction) {
-    float seen = direction.z * visible_area(drawn.transfer, light_from(direction));
+    float polynomials[16];
+    transfer_polynomials(direction, polynomials);
+    float seen = direction.z * relative_area(product(drawn.area, polynomials), polynomials);
     return clamp(seen / max(facing, 1e-6), 0.0, 1.0);
 }
 
@@ -297,11 +292,6 @@ float seen_part(float facing, vec3 direction) {
 // Lambda + Lambda'), written with 1 / (1 + Lambda) of both.
 float seen_by_both(float first, float second) {
     return first * second / max(first + second - first * second, 1e-6);
-}
-
-void gather_relief(appearance fetched, surface_point surface) {
-    drawn.viewer = viewer_of(surface);
-    drawn.transfer = fetch_transfer(surface, drawn.viewer);
 }
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
@@ -328,13 +318,12 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
 vec3 mirrored_by_facets(base_material base, vec3 fresnel, vec3 outgoing, vec3 incoming,
                         uint light) {
     return mirrored_light(base, drawn.lights[light], fresnel, outgoing, incoming) *
-           (seen_by_both(drawn.seen, drawn.shone_on[light]) /
-            (drawn.viewer.z * drawn.transfer.visible));
+           (seen_by_both(drawn.seen, drawn.shone_on[light]) / (drawn.viewer.z * drawn.visible));
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (has_diffuse())
-        gather_relief(fetched, surface);
+        gather_relief(surface);
     if (has_facets())
         gather_facets(fetched, surface, incoming);
 }
@@ -355,8 +344,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         mirroring.diffuse = vec3(0.0);
         lobes = evaluate_base_material(mirroring, fetched.mean_normal, surface.outgoing, incoming);
     }
-    return lobes +
-           diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(light_from(incoming)));
+    return lobes + diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(incoming));
 }
 
 #ifdef ENVIRONMENT
@@ -364,14 +352,13 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 // these sums are off for light that is the same everywhere is added with the mean radiance.
 const int LIGHT_WIDTH = 8;
 
-void light_of_environment(surface_point surface, out transfer_light light[3]) {
+void light_of_environment(surface_point surface, out float light[3][16]) {
     mat3 tangent_from_environment = tangent_from_environment_of(surface);
     int level = level_of_faces(LIGHT_WIDTH);
     int size = textureSize(environment_faces, level).x;
     float sums[16];
     for (int k = 0; k < 16; ++k)
-        light[0].polynomials[k] = light[1].polynomials[k] = light[2].polynomials[k] = sums[k] =
-            0.0;
+        light[0][k] = light[1][k] = light[2][k] = sums[k] = 0.0;
     vec4 mean = vec4(0.0); // radiance times cosine, cosine
     for (int i = 0; i < 6 * size * size; ++i) {
         int face = i / (size * size);
@@ -385,17 +372,15 @@ void light_of_environment(surface_point surface, out transfer_light light[3]) {
         mean += vec4(irradiance, solid_angle) * polynomials[0];
         for (int k = 0; k < 16; ++k) {
             sums[k] += solid_angle * polynomials[k];
-            light[0].polynomials[k] += irradiance.r * polynomials[k];
-            light[1].polynomials[k] += irradiance.g * polynomials[k];
-            light[2].polynomials[k] += irradiance.b * polynomials[k];
+            light[0][k] += irradiance.r * polynomials[k];
+            light[1][k] += irradiance.g * polynomials[k];
+            light[2][k] += irradiance.b * polynomials[k];
         }
     }
     mean /= max(mean.w, 1e-6);
-    for (int channel = 0; channel < 3; ++channel) {
+    for (int channel = 0; channel < 3; ++channel)
         for (int k = 0; k < 16; ++k)
-            light[channel].polynomials[k] += mean[channel] * (TRANSFER_INTEGRAL[k] - sums[k]);
-        find_functions(light[channel]);
-    }
+            light[channel][k] += mean[channel] * (TRANSFER_INTEGRAL[k] - sums[k]);
 }
 
 // Each bin by the area of it that faces the viewer, masked, and shadowed in the direction that its
@@ -419,7 +404,7 @@ vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
         sum += (areas.sizes[k] * facing * seen_by_both(seen, lit)) *
                reflect_bin(surface, facet_bin(surface, area, k, width), fetched.base.specular);
     }
-    return sum / (drawn.viewer.z * drawn.transfer.visible);
+    return sum / (drawn.viewer.z * drawn.visible);
 }
 
 vec3 reflect_environment(appearance fetched, surface_point surface) {
@@ -428,9 +413,9 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
         return reflect_base_material(surface, base, fetched.mean_normal);
     base_material white = base;
     white.diffuse = vec3(1.0);
-    transfer_light light[3];
+    float light[3][16];
     light_of_environment(surface, light);
-    gather_relief(fetched, surface);
+    gather_relief(surface);
     reflected_light reflected;
     for (uint channel = 0u; channel < 3u; ++channel)
         reflect_channel(reflected, channel, light[channel]);

@@ -5,7 +5,6 @@
 // map's functions. One thread a quad.
 
 #include "filters/displaced/facet_sky.glsl"
-#include "filters/displaced/functions.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -16,8 +15,14 @@ layout(set = 0, binding = 10, std430) readonly buffer basis_block {
     transfer_basis_constants basis;
 };
 
-vec4 function_factors(uint place) {
-    return basis.functions[place];
+// The coefficient in function `k`, from those in all polynomials.
+float function_of(uint k, float polynomials[16]) {
+    float sum = 0.0;
+    for (uint i = 0u; i < 4u; ++i)
+        sum += dot(basis.functions[4u * k + i],
+                   vec4(polynomials[4u * i], polynomials[4u * i + 1u], polynomials[4u * i + 2u],
+                        polynomials[4u * i + 3u]));
+    return sum;
 }
 
 float coefficient(uint k, float polynomials[16]) {

@@ -19,7 +19,9 @@ layout(set = 0, binding = 1, std430) writeonly buffer closure_block {
 layout(set = 0, binding = 2, std430) readonly buffer basis_block {
     transfer_basis_constants basis;
 };
-layout(set = 0, binding = 35, std430) readonly buffer height_extent_block { vec4 height_extent; };
+layout(set = 0, binding = 35, std430) readonly buffer height_extent_block {
+    vec4 height_extent;
+};
 
 const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
 
@@ -37,10 +39,8 @@ float integral_of(uint k) {
 }
 
 void main() {
-    float lacking[16], functions[9], visible[12];
+    float lacking[16], functions[9], visible[16];
     float direct = 0.0, lost = 0.0;
-    for (uint i = 0u; i < 12u; ++i)
-        visible[i] = i < ORDER ? entry(TRANSFER_ENTRIES(ORDER) + i) : 0.0;
     for (uint i = 0u; i < ORDER; ++i) {
         functions[i] = 0.0;
         for (uint j = 0u; j < ORDER; ++j)
@@ -49,24 +49,27 @@ void main() {
     }
     for (uint i = 0u; i < 16u; ++i) {
         lacking[i] = i == 0u ? TRANSFER_COSINE : 0.0;
-        for (uint k = 0u; k < ORDER; ++k)
-            lacking[i] -= basis.functions[4u * k + i / 4u][i % 4u] * functions[k];
+        visible[i] = 0.0;
+        for (uint k = 0u; k < ORDER; ++k) {
+            float factor = basis.functions[4u * k + i / 4u][i % 4u];
+            lacking[i] -= factor * functions[k];
+            visible[i] += factor * entry(TRANSFER_ENTRIES(ORDER) + k);
+        }
         for (uint j = 0u; i < TRANSFER_INDIRECT && j < TRANSFER_INDIRECT; ++j)
             lacking[i] -= of_matrix(DIRECT, i, j) * TRANSFER_INTEGRAL[j];
         if (COLOURED)
             lacking[i] = 0.0;
         lost += lacking[i] * TRANSFER_INTEGRAL[i];
     }
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
         closure.lacking[i] =
             vec4(lacking[4 * i], lacking[4 * i + 1], lacking[4 * i + 2], lacking[4 * i + 3]);
-    for (int i = 0; i < 3; ++i)
         closure.visible[i] =
             vec4(visible[4 * i], visible[4 * i + 1], visible[4 * i + 2], visible[4 * i + 3]);
+    }
     float rest = 1.0 - direct, next = entry(DIRECT + TRANSFER_INDIRECT_COUNT);
     closure.lost = lost;
-    closure.persistence =
-        !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
+    closure.persistence = !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
     closure.radius = height_extent.z;
     closure.basis = basis;

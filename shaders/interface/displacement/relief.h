@@ -94,19 +94,19 @@ struct transfer_closure_constants {
     transfer_basis_constants basis;
     // What the mean of C and N lacks, so that a white relief reflects all light.
     float4 lacking[4]; // in all polynomials
-    float4 visible[3]; // mean a b; the last is 0, but for x
+    float4 visible[4]; // mean a b, in all polynomials
     float lost;        // the integral of what lacks
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
     float radius;      // of the facets' normals, see below
 };
-INTERFACE_SIZE(transfer_closure_constants, 752)
+INTERFACE_SIZE(transfer_closure_constants, 768)
 INTERFACE_OFFSET(transfer_closure_constants, lacking, 624)
 INTERFACE_OFFSET(transfer_closure_constants, visible, 688)
-INTERFACE_OFFSET(transfer_closure_constants, lost, 736)
-INTERFACE_OFFSET(transfer_closure_constants, persistence, 740)
-INTERFACE_OFFSET(transfer_closure_constants, direct, 744)
-INTERFACE_OFFSET(transfer_closure_constants, radius, 748)
+INTERFACE_OFFSET(transfer_closure_constants, lost, 752)
+INTERFACE_OFFSET(transfer_closure_constants, persistence, 756)
+INTERFACE_OFFSET(transfer_closure_constants, direct, 760)
+INTERFACE_OFFSET(transfer_closure_constants, radius, 764)
 
 // The facets' normals as places in the Lambert plane of the tangent frame, in bins
 // (lib/displacement/facet_bins.glsl): the first of those nearer to the pole than the others, then

@@ -132,10 +132,54 @@ static void maps_of_one_colour_are_that_colour(void **state) {
     }
 }
 
+static void expect_passes(fixture *f, size_t transfer, size_t links, size_t colours,
+                          size_t bounces) {
+    const picture_request request = {
+        .filter = "displaced", .settings = {NULL}, .width = 8, .height = 8, .samples = 1};
+    lobe_frame frame = draw(f, &request);
+    lobe_frame_free(&frame);
+    const lobe_graph *graph = lobe_renderer_graph(f->renderer);
+    assert_int_equal(count_passes(graph, "facet_transfer", LOBE_PASS_RUN), transfer);
+    assert_int_equal(count_passes(graph, "facet_links", LOBE_PASS_RUN), links);
+    assert_int_equal(count_passes(graph, "facet_colours", LOBE_PASS_RUN), colours);
+    assert_int_equal(count_passes(graph, "facet_bounces", LOBE_PASS_RUN), bounces);
+}
+
+/// New colours repeat the light between facets, but neither horizons nor links; another roughness
+/// repeats nothing.
+static void colours_rebuild_what_depends_on_them(void **state) {
+    fixture *f = *state;
+    const uint32_t first = 0;
+    const lobe_scene_changes of_material = {.materials = &first, .material_count = 1};
+    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.8, 0);
+    const double outgoing[3] = {0, 0.6, 0.8};
+    lobe_scene *scene = relief_plane(&material, relief_map(SIDE, SIDE, waves), outgoing, 40);
+    scene->materials[0].base_colour_map = scene_add_map(scene, colour_map(SIDE, SIDE, by_height));
+    const uint32_t colours = (uint32_t)scene->materials[0].base_colour_map.image;
+    const lobe_scene_changes of_map = {.images = &colours, .image_count = 1};
+    relief_plane_add_sun(scene, outgoing, 1);
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    expect_passes(f, 1, 1, 1, 24);
+    expect_passes(f, 0, 0, 0, 0);
+    ((float *)scene->images[colours].image.texels)[0] = 0.9F;
+    assert_int_equal(lobe_renderer_update_scene(f->renderer, &of_map), LOBE_OK);
+    expect_passes(f, 0, 0, 1, 24);
+    scene->materials[0].base_colour[1] = 0.5F;
+    assert_int_equal(lobe_renderer_update_scene(f->renderer, &of_material), LOBE_OK);
+    expect_passes(f, 0, 0, 1, 24);
+    scene->materials[0].roughness = 0.3F;
+    assert_int_equal(lobe_renderer_update_scene(f->renderer, &of_material), LOBE_OK);
+    expect_passes(f, 0, 0, 0, 0);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_vary_with_heights),
         cmocka_unit_test(maps_of_one_colour_are_that_colour),
+        cmocka_unit_test(colours_rebuild_what_depends_on_them),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
