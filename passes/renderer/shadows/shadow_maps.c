@@ -100,11 +100,10 @@ typedef struct shadow_drawing {
     lobe_resource maps, slopes;
 } shadow_drawing;
 
-static void fill_view(const shadow_drawing *d, const lobe_camera *view,
+static void fill_view(const shadow_drawing *d, const shadow_camera *view,
                       struct shadow_view *result) {
     mat4 matrix;
-    passes_camera_projection(view, d->extent, d->extent, d->place, d->receivers.minimum,
-                             d->receivers.maximum, matrix);
+    passes_shadow_projection(view, &d->receivers, d->extent, d->place, matrix);
     memcpy(result->world_to_clip, matrix, sizeof matrix);
     passes_shadow_tolerance(view, &d->receivers, d->extent, result->tolerance);
 }
@@ -136,7 +135,7 @@ static void draw_layers(shadow_drawing *d) {
                 continue;
             const uint32_t first = plan.layers, count = passes_shadow_plan_take(&plan, light);
             for (uint32_t k = 0; k < count; k++) {
-                const lobe_camera view = passes_shadow_view(light, k, &d->receivers, d->extent);
+                const shadow_camera view = passes_shadow_view(light, k, &d->receivers, d->extent);
                 fill_view(d, &view, &d->views[first + k]);
                 draw_layer(d, first + k);
             }

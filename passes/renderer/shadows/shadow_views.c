@@ -141,8 +141,14 @@ static float rounded_up(float size) {
     return exp2f(ceilf(8 * log2f(size)) / 8);
 }
 
-static lobe_camera parallel_view(const lobe_light *light, const shadow_receivers *receivers,
-                                 uint32_t extent) {
+/// Width or height of a view that holds an interval, with its border.
+static float size_of_view(float low, float high, float least, uint32_t extent) {
+    const float wanted = at_least(high - low, least);
+    return rounded_up(wanted * (float)extent / (float)(extent - 2 * BORDER - 2));
+}
+
+static shadow_camera parallel_view(const lobe_light *light, const shadow_receivers *receivers,
+                                   uint32_t extent) {
     lobe_camera view = {.vertical_field_of_view = 0};
     for (int i = 0; i < 3; i++)
         view.target[i] = light->direction[i];
@@ -151,25 +157,25 @@ static lobe_camera parallel_view(const lobe_light *light, const shadow_receivers
     passes_camera_rotation(&view, rotation);
     const light_box box = find_box(rotation, receivers);
     const float diagonal = diagonal_of(receivers);
-    const float wanted =
-        at_least(fmaxf(box.high[0] - box.low[0], box.high[1] - box.low[1]), 1e-6f * diagonal);
-    const float size = rounded_up(wanted * (float)extent / (float)(extent - 2 * BORDER - 2));
-    const float texel = size / (float)extent;
-    vec3 eye = {texel * floorf(0.5f * (box.low[0] + box.high[0]) / texel),
-                texel * floorf(0.5f * (box.low[1] + box.high[1]) / texel),
-                box.high[2] + 1e-2f * diagonal};
+    float size[2];
+    vec3 eye = {0, 0, box.high[2] + 1e-2f * diagonal};
+    for (int i = 0; i < 2; i++) {
+        size[i] = size_of_view(box.low[i], box.high[i], 1e-6f * diagonal, extent);
+        const float texel = size[i] / (float)extent;
+        eye[i] = texel * floorf(0.5f * (box.low[i] + box.high[i]) / texel);
+    }
     mat3 inverse;
     glm_mat3_transpose_to(rotation, inverse);
     glm_mat3_mulv(inverse, eye, view.eye);
     for (int i = 0; i < 3; i++)
         view.target[i] = view.eye[i] - diagonal * rotation[i][2];
-    view.orthographic_height = size;
+    view.orthographic_height = size[1];
     view.near_plane = 5e-3f * diagonal;
-    return view;
+    return (shadow_camera){.camera = view, .aspect = size[0] / size[1]};
 }
 
-static lobe_camera view_from_point(const lobe_light *light, uint32_t index,
-                                   const shadow_receivers *receivers, uint32_t extent) {
+static shadow_camera view_from_point(const lobe_light *light, uint32_t index,
+                                     const shadow_receivers *receivers, uint32_t extent) {
     const bool one = passes_shadow_view_count(light) == 1;
     const float border = (float)extent / (float)(extent - 2 * BORDER);
     const float half = one ? at_least(light->outer_cone, 1e-3f) : 0.25f * GLM_PIf;
@@ -186,17 +192,33 @@ static lobe_camera view_from_point(const lobe_light *light, uint32_t index,
         view.eye[i] = light->position[i];
         view.target[i] = light->position[i] + diagonal * along[i];
     }
-    return view;
+    return (shadow_camera){.camera = view, .aspect = 1};
 }
 
-lobe_camera passes_shadow_view(const lobe_light *light, uint32_t index,
-                               const shadow_receivers *receivers, uint32_t extent) {
+shadow_camera passes_shadow_view(const lobe_light *light, uint32_t index,
+                                 const shadow_receivers *receivers, uint32_t extent) {
     return light->type == LOBE_LIGHT_DIRECTIONAL ? parallel_view(light, receivers, extent)
                                                  : view_from_point(light, index, receivers, extent);
 }
 
-void passes_shadow_tolerance(const lobe_camera *view, const shadow_receivers *receivers,
+void passes_shadow_projection(const shadow_camera *view, const shadow_receivers *receivers,
+                              uint32_t extent, const float place[2], mat4 world_to_clip) {
+    passes_camera_projection(&view->camera, extent, extent, place, receivers->minimum,
+                             receivers->maximum, world_to_clip);
+    if (view->aspect == 1)
+        return;
+    // Of a parallel view, w is 1: all but the shift by part of a texel becomes narrower.
+    float shift[2];
+    passes_camera_shift(&view->camera, extent, extent, place, shift);
+    world_to_clip[3][0] -= shift[0];
+    for (int column = 0; column < 4; column++)
+        world_to_clip[column][0] /= view->aspect;
+    world_to_clip[3][0] += shift[0];
+}
+
+void passes_shadow_tolerance(const shadow_camera *shadow, const shadow_receivers *receivers,
                              uint32_t extent, float tolerance[4]) {
+    const lobe_camera *view = &shadow->camera;
     float largest = 0; // coordinates are rounded to a part of it
     for (int i = 0; i < 3; i++)
         largest = at_least(largest, fmaxf(fabsf(receivers->minimum[i]), //
@@ -215,7 +237,8 @@ void passes_shadow_tolerance(const lobe_camera *view, const shadow_receivers *re
     for (int i = 0; i < 3; i++)
         far += axis[i] * (axis[i] > 0 ? receivers->maximum[i] : receivers->minimum[i]);
     const float depth = at_least(1.01f * far - view->near_plane, 1e-3f * view->near_plane);
-    const float texel = view->orthographic_height / (float)extent;
+    const float size = view->orthographic_height * at_least(shadow->aspect, 1);
+    const float texel = size / (float)extent;
     tolerance[0] = (PLANE_TOLERANCE * texel + 1e-6f * largest) / depth + 4e-7f;
-    tolerance[2] = STEEPEST * 0.5f * view->orthographic_height / depth;
+    tolerance[2] = STEEPEST * 0.5f * size / depth;
 }
