@@ -129,17 +129,21 @@ lobe_resource passes_displaced_mesh_measure(const filter_context *context, uint3
                                             const displaced_mesh *mesh, const lobe_texture_use *use,
                                             size_t number) {
     char name[64];
+    const lobe_image *map = &context->scene->scene->images[use->image].image;
     struct pose_constants constants = {.count = mesh->chart_count,
-                                       .second_set = use->texture_coordinates};
+                                       .second_set = use->texture_coordinates,
+                                       .width = (float)map->width,
+                                       .height = (float)map->height};
     memcpy(constants.map_rows[0], use->transform[0], sizeof use->transform[0]);
     memcpy(constants.map_rows[1], use->transform[1], sizeof use->transform[1]);
-    snprintf(name, sizeof name, "chart lengths of instance %zu", number);
-    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "chart_lengths");
+    snprintf(name, sizeof name, "chart measures of instance %zu", number);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "chart_measures");
     read_mesh(context, index, mesh, pass);
-    const lobe_resource lengths = lobe_pass_write(
-        pass, &(lobe_binding){.name = "length_block",
-                              .resource = declare(context->graph, name,
-                                                  mesh->chart_count * 2 * sizeof(float))});
-    dispatch(pass, "displacement/chart_lengths.comp", constants);
-    return lengths;
+    const lobe_resource measures = lobe_pass_write(
+        pass,
+        &(lobe_binding){.name = "measure_block",
+                        .resource = declare(context->graph, name,
+                                            mesh->chart_count * sizeof(struct chart_measure))});
+    dispatch(pass, "displacement/chart_measures.comp", constants);
+    return measures;
 }

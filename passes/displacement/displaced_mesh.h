@@ -19,8 +19,8 @@ void passes_displaced_mesh_destroy(displaced_mesh *mesh);
 /// Adds the pass that poses the points, unless this frame has it already.
 void passes_displaced_mesh_pose(const filter_context *context, uint32_t index,
                                 displaced_mesh *mesh);
-/// Adds the pass that measures how a map lies on the mesh's charts; returns a buffer of two floats
-/// for each. `number`: of the instance that has the map, for a name.
+/// Adds the pass that measures how a map lies on the mesh's charts; returns a buffer of struct
+/// chart_measure. `number`: of the instance that has the map, for a name.
 lobe_resource passes_displaced_mesh_measure(const filter_context *context, uint32_t index,
                                             const displaced_mesh *mesh, const lobe_texture_use *use,
                                             size_t number);

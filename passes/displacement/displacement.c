@@ -30,6 +30,7 @@ typedef struct instance_state {
 struct displacement {
     displaced_mesh *meshes;       ///< one for each mesh of the scene
     reduced_map *heights;         ///< one for each image: of this frame; version 0: none yet
+    height_bounds *bounds;        ///< the same; no levels: none yet
     instance_state *instances;    ///< one for each instance
     displaced_geometry *geometry; ///< the same: of this frame
     size_t mesh_count, instance_room;
@@ -72,9 +73,11 @@ static bool create(displacement **state, const device_scene *scene) {
     s->mesh_count = scene->scene->mesh_count;
     s->meshes = lobe_allocate(scene->allocator, s->mesh_count + 1, sizeof *s->meshes);
     s->heights = lobe_allocate(scene->allocator, scene->scene->image_count + 1, sizeof *s->heights);
-    if (!s->meshes || !s->heights) {
+    s->bounds = lobe_allocate(scene->allocator, scene->scene->image_count + 1, sizeof *s->bounds);
+    if (!s->meshes || !s->heights || !s->bounds) {
         lobe_release(s->meshes);
         lobe_release(s->heights);
+        lobe_release(s->bounds);
         lobe_release(s);
         return false;
     }
@@ -90,6 +93,7 @@ void passes_displacement_destroy(displacement **state) {
         passes_displaced_mesh_destroy(&s->meshes[i]);
     lobe_release(s->meshes);
     lobe_release(s->heights);
+    lobe_release(s->bounds);
     lobe_release(s->instances);
     lobe_release(s->geometry);
     lobe_release(s);
@@ -225,6 +229,16 @@ static const reduced_map *reduce_heights(displacement *state, const filter_conte
     return map;
 }
 
+static height_bounds bound_heights(displacement *state, const filter_context *context,
+                                   int32_t index) {
+    const lobe_image *image = &context->scene->scene->images[index].image;
+    height_bounds *bounds = &state->bounds[index];
+    if (bounds->levels == 0)
+        *bounds = passes_height_bounds(context->graph, import_heights(context, index), image->width,
+                                       image->height, index);
+    return *bounds;
+}
+
 static void displace(displacement *state, const filter_context *context, device_scene *scene,
                      size_t index, double spacing) {
     const instance_state *instance = &state->instances[index];
@@ -243,8 +257,9 @@ static void displace(displacement *state, const filter_context *context, device_
         .heights = import_heights(context, image),
         .height_levels = heights->resource,
         .levels = heights->levels + 1,
-        .lengths = passes_displaced_mesh_measure(context, instance->key.mesh, mesh,
-                                                 &instance->key.use, index),
+        .measures = passes_displaced_mesh_measure(context, instance->key.mesh, mesh,
+                                                  &instance->key.use, index),
+        .bounds = bound_heights(state, context, image),
         .spacing = spacing,
     };
     state->geometry[index] = passes_displace_patches(context, &surface);
@@ -273,6 +288,7 @@ void passes_displacement(displacement *state, const filter_context *context, dev
     scene->displaced_spacing = (float)spacing;
     memset(state->geometry, 0, state->instance_room * sizeof *state->geometry);
     memset(state->heights, 0, scene->scene->image_count * sizeof *state->heights);
+    memset(state->bounds, 0, scene->scene->image_count * sizeof *state->bounds);
     for (size_t i = 0; i < state->mesh_count; i++)
         state->meshes[i].posed = (lobe_resource){0};
     for (size_t i = 0; i < scene->instance_count; i++)

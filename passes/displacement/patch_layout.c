@@ -41,6 +41,5 @@ patch_layout passes_patch_layout(const lobe_mesh *mesh, const lobe_texture_use *
         layout.patches *= 4;
         texels /= 2;
     }
-    layout.level = texels > most ? (float)log2(texels / most) : 0;
     return layout;
 }

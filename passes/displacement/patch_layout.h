@@ -9,7 +9,6 @@ typedef struct patch_layout {
     /// the map covers no area.
     double unit;
     uint32_t depth;   ///< patches of a triangle: 4^depth
-    float level;      ///< of the height map: finer ones have more texels than patches can show
     uint32_t patches; ///< of all triangles
 } patch_layout;
 

@@ -113,6 +113,15 @@ static uint32_t wrap_of(lobe_scene_wrap wrap) {
     }
 }
 
+/// Which way fronts wind; 0: backs are seen, too.
+static float facing_of(const filter_context *context, size_t instance) {
+    const device_instance *own = &context->scene->instances[instance];
+    const float *transform = context->scene->scene->instances[instance].transform;
+    if (context->scene->scene->materials[own->material].double_sided)
+        return 0;
+    return passes_transform_determinant(transform) < 0 ? -1 : 1;
+}
+
 static struct displacement_constants constants_of(const filter_context *context,
                                                   const displaced_surface *surface) {
     const float *transform = context->scene->scene->instances[surface->instance].transform;
@@ -120,9 +129,9 @@ static struct displacement_constants constants_of(const filter_context *context,
     struct displacement_constants constants = {
         .spacing = (float)surface->spacing,
         .relief = (float)surface->relief,
-        .reach = (float)(fabs(surface->relief) * passes_transform_stretch(transform)),
+        .stretch = (float)passes_transform_stretch(transform),
         .scale = (float)cbrt(fabs(passes_transform_determinant(transform))),
-        .least_level = surface->layout->level,
+        .facing = facing_of(context, surface->instance),
         .width = surface->width,
         .height = surface->height,
         .wrap_u = wrap_of(surface->use->wrap_u),
@@ -132,6 +141,7 @@ static struct displacement_constants constants_of(const filter_context *context,
         .patch_count = patches,
         .depth = surface->layout->depth,
         .row = patches < ROW ? patches : ROW,
+        .bounds_levels = surface->bounds.levels,
     };
     for (int row = 0; row < 2; row++)
         memcpy(constants.map_rows[row], surface->use->transform[row],
@@ -194,12 +204,22 @@ static void read_mesh(const filter_context *context, const displaced_surface *su
     read(pass, "vertex_block", passes_device_mesh_import(graph, context->scene, index));
 }
 
+static void read_heights(const filter_context *context, const displaced_surface *surface,
+                         lobe_pass *pass) {
+    read(pass, "base_point_block", lobe_graph_import_buffer(context->graph, surface->mesh->points));
+    read(pass, "measure_block", surface->measures);
+    read(pass, "height_map", surface->heights);
+    read(pass, "height_levels", surface->height_levels);
+}
+
 static void measure_patches(const filter_context *context, const displaced_surface *surface,
                             uint32_t row, patch_buffers *buffers) {
     lobe_pass *clear = lobe_graph_add_pass(context->graph, LOBE_PASS_TRANSFER, "clear");
     buffers->sums = lobe_pass_fill(clear, buffers->sums, (lobe_range){0}, (float[4]){0});
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_sizes");
     read_mesh(context, surface, buffers, pass);
+    read_heights(context, surface, pass);
+    read(pass, "bounds_block", surface->bounds.buffer);
     buffers->sizes =
         lobe_pass_write(pass, &(lobe_binding){.name = "patch_block", .resource = buffers->sizes});
     buffers->sums =
@@ -235,10 +255,7 @@ static void write_vertices(const filter_context *context, const displaced_surfac
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "displaced_vertices");
     read_mesh(context, surface, buffers, pass);
     read_patches(buffers, pass);
-    read(pass, "base_point_block", lobe_graph_import_buffer(graph, surface->mesh->points));
-    read(pass, "length_block", surface->lengths);
-    read(pass, "height_map", surface->heights);
-    read(pass, "height_levels", surface->height_levels);
+    read_heights(context, surface, pass);
     read(pass, "index_block", lobe_graph_import_buffer(graph, context->scene->indices[index]));
     buffers->vertices = lobe_pass_write(
         pass, &(lobe_binding){.name = "displaced_block", .resource = buffers->vertices});

@@ -2,6 +2,7 @@
 #define PASSES_DISPLACEMENT_PATCH_PASSES_H
 
 #include "passes/displacement/displaced_mesh.h"
+#include "passes/displacement/height_bounds.h"
 #include "passes/displacement/patch_layout.h"
 
 /// What the passes of a displaced instance read.
@@ -13,9 +14,10 @@ typedef struct displaced_surface {
     double relief;          ///< of height 1, the object's lengths
     uint32_t width, height; ///< texels of the height map
     lobe_resource heights, height_levels;
-    uint32_t levels;       ///< with level 0
-    lobe_resource lengths; ///< of the mesh's charts
-    double spacing;        ///< of vertices, pixels
+    uint32_t levels;        ///< with level 0
+    lobe_resource measures; ///< of the mesh's charts
+    height_bounds bounds;   ///< of the heights
+    double spacing;         ///< of vertices, pixels
 } displaced_surface;
 
 /// Adds the passes that cut an instance into patches, choose how finely each is divided for the

@@ -34,8 +34,4 @@ float view_distance(vec3 world) {
     return max(max(along, beside), constants.near_plane);
 }
 
-float pixels_per_metre(float distance) {
-    return constants.perspective != 0.0 ? constants.pixels / distance : constants.pixels;
-}
-
 #endif

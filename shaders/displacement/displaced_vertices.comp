@@ -22,40 +22,18 @@ layout(set = 0, binding = 15, std430) writeonly buffer displaced_block { vertex 
 // ---------------------------------------------------------------------------------------------
 // Positions
 
-vec3 point_direction(uint point) {
-    return vec3(points[point].direction[0], points[point].direction[1],
-                points[point].direction[2]);
-}
-
-vec3 site_direction(base_site site) {
-    if (site.kind == SITE_POINT)
-        return point_direction(site.index);
-    precise vec3 sum;
-    vec3 first;
-    if (site.kind == SITE_EDGE) {
-        first = point_direction(edges[site.index].points[0]);
-        sum = first + site.part * (point_direction(edges[site.index].points[1]) - first);
-    } else {
-        first = point_direction(point_of_corner(site.index, 0));
-        sum = site.weights.x * first +
-              site.weights.y * point_direction(point_of_corner(site.index, 1)) +
-              site.weights.z * point_direction(point_of_corner(site.index, 2));
-    }
-    return dot(sum, sum) > 1e-8 ? normalize(sum) : first;
-}
-
 // Metres between vertices.
-float vertex_distance(vec3 position) {
+float vertex_distance(base_site site) {
     uint chosen = arguments[PATCH_SPACING];
     float spacing = constants.spacing * exp2(0.5 * float(chosen));
-    return spacing / pixels_per_metre(view_distance(world_position(position)));
+    return spacing / pixels_per_metre_at(site);
 }
 
 vec3 displaced_place(base_place place) {
     base_site site = site_of(place);
     vec3 position = site_position(site);
     precise vec3 result = position + constants.relief *
-                                         site_height(site, vertex_distance(position)) *
+                                         site_height(site, vertex_distance(site)) *
                                          site_direction(site);
     return result;
 }

@@ -5,10 +5,9 @@
 // several distances of vertices. An edge's size is the log2 of its length over that distance, in
 // pixels as seen at the nearest point of the sphere around it: the same for both of its patches,
 // and whichever way the camera looks. Vertices are not closer than texels. Patches have none unless
-// they or their shadows may be in the picture.
+// they or their shadows may be in the picture (patch_culling.glsl).
 
-#include "displacement/coordinates.glsl"
-#include "displacement/patches.glsl"
+#include "displacement/patch_culling.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -17,11 +16,11 @@ layout(set = 0, binding = 12, std430) buffer sum_block { uint sums[]; };
 
 shared uint group_sums[PATCH_SUMS];
 
-float pixel_size(vec3 first, vec3 second) {
-    precise float size = length(first - second);
-    precise vec3 centre = 0.5 * (first + second);
-    float near = view_distance(centre) - 0.5 * size;
-    return log2(size * pixels_per_metre(max(near, constants.near_plane)) / constants.spacing);
+float pixel_size(base_site middle, float size) {
+    float pixels = constants.pixels;
+    if (constants.perspective != 0.0)
+        pixels /= max(view_distance(distant_position(middle)) - 0.5 * size, constants.near_plane);
+    return log2(size * pixels / constants.spacing);
 }
 
 vec2 in_texels(vec2 coordinates) {
@@ -55,67 +54,30 @@ float patch_texels(base_patch parts, int first) {
                     : edge_texels(triangles[parts.triangle].edges[edge]) / rows;
 }
 
-bool is_in_picture(vec3 centre, float radius) {
-    bool seen = true;
-    for (int i = 0; i < 5; ++i)
-        seen = seen && dot(constants.planes[i], vec4(centre, 1.0)) >= -radius;
-    return seen;
-}
-
-// A shadow is the sphere moved along the light, and grows if the light is near: whether it is
-// inside of all planes at the same time.
-bool is_shadow_in_picture(vec4 caster, vec3 centre, float radius) {
-    vec3 along = caster.w > 0.0 ? centre - caster.xyz : caster.xyz;
-    float from = 0.0, to = 1e30;
-    for (int i = 0; i < 5; ++i) {
-        float inside = dot(constants.planes[i], vec4(centre, 1.0)) + radius;
-        float change = dot(constants.planes[i].xyz, along) + caster.w * radius;
-        if (change > 0.0)
-            from = max(from, -inside / change);
-        else if (change < 0.0)
-            to = min(to, -inside / change);
-        else if (inside < 0.0)
-            return false;
-    }
-    return from <= to;
-}
-
-bool has_shadow_in_picture(vec3 centre, float radius) {
-    if (constants.caster_count > PATCH_CASTERS)
-        return true;
-    for (uint i = 0u; i < constants.caster_count; ++i)
-        if (is_shadow_in_picture(constants.casters[i], centre, radius))
-            return true;
-    return false;
+base_site middle_of_edge(base_patch parts, int first) {
+    ivec3 ends = ivec3(1) - ivec3(first == 1, first == 2, first == 0);
+    return site_of(place_in_patch(parts, ends, 2));
 }
 
 float edge_size(base_patch parts, int first, vec3 corners[3]) {
-    vec3 begin = corners[first], end = corners[(first + 1) % 3];
-    float size = min(pixel_size(begin, end), log2(patch_texels(parts, first)));
-    if (constants.caster_count > 0u) {
-        precise vec3 centre = 0.5 * (begin + end);
-        precise float radius = 0.5 * length(begin - end) + constants.reach;
-        if (!is_in_picture(centre, radius))
-            size -= float(PATCH_UNSEEN);
-    }
+    base_site middle = middle_of_edge(parts, first);
+    precise float length_of_edge = length(corners[first] - corners[(first + 1) % 3]);
+    float size = min(pixel_size(middle, length_of_edge), log2(patch_texels(parts, first)));
+    if (constants.caster_count > 0u && !is_edge_in_picture(middle, length_of_edge))
+        size -= float(PATCH_UNSEEN);
     return clamp(size, 0.0, float(PATCH_MOST));
-}
-
-bool is_drawn(vec3 corners[3]) {
-    vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-    float radius = max(max(length(corners[0] - centre), length(corners[1] - centre)),
-                       length(corners[2] - centre)) + constants.reach;
-    return is_in_picture(centre, radius) || has_shadow_in_picture(centre, radius);
 }
 
 vec4 patch_sizes(uint number) {
     base_patch parts = patch_of(number);
+    base_site sites[3];
     vec3 corners[3];
     for (int i = 0; i < 3; ++i) {
         ivec3 weights = ivec3(i == 0, i == 1, i == 2);
-        corners[i] = world_position(site_position(site_of(place_in_patch(parts, weights, 1))));
+        sites[i] = site_of(place_in_patch(parts, weights, 1));
+        corners[i] = world_position(site_position(sites[i]));
     }
-    if (!is_drawn(corners))
+    if (!is_drawn(parts, sites, corners))
         return vec4(PATCH_CULLED);
     vec3 sizes = vec3(edge_size(parts, 0, corners), edge_size(parts, 1, corners),
                       edge_size(parts, 2, corners));

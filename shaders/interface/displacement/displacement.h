@@ -68,11 +68,48 @@ struct pose_constants {
     uint row;        // threads in a row of the dispatch
     uint padding_0;
     float4 map_rows[2]; // of the coordinates' transform
+    float width;        // texels of the map
+    float height;
+    float padding_1;
+    float padding_2;
 };
-INTERFACE_SIZE(pose_constants, 48)
+INTERFACE_SIZE(pose_constants, 64)
 INTERFACE_OFFSET(pose_constants, second_set, 4)
 INTERFACE_OFFSET(pose_constants, row, 8)
 INTERFACE_OFFSET(pose_constants, map_rows, 16)
+INTERFACE_OFFSET(pose_constants, width, 48)
+INTERFACE_OFFSET(pose_constants, height, 52)
+
+// How a map lies on the mesh around a chart (std430).
+struct chart_measure {
+    float lengths[2]; // over which u and v grow by 1, the object's
+    float edge;       // texels along the longest edge of the triangles that have it
+};
+INTERFACE_SIZE(chart_measure, 12)
+INTERFACE_OFFSET(chart_measure, edge, 8)
+
+// Texels along each side of the squares of which the least and the greatest heights are kept; then
+// of four of them, and so on, to one for the map. Four floats each: the least, the greatest, and
+// the greatest change from a texel to the next along u and v.
+#define HEIGHT_BOUNDS_TEXELS 8
+struct height_bounds_constants {
+    uint width; // texels of the map
+    uint height;
+    uint columns; // squares to write
+    uint rows;
+    uint target;         // the first of them
+    uint source;         // the first to read
+    uint source_columns; // 0: from the map
+    uint source_rows;
+};
+INTERFACE_SIZE(height_bounds_constants, 32)
+INTERFACE_OFFSET(height_bounds_constants, height, 4)
+INTERFACE_OFFSET(height_bounds_constants, columns, 8)
+INTERFACE_OFFSET(height_bounds_constants, rows, 12)
+INTERFACE_OFFSET(height_bounds_constants, target, 16)
+INTERFACE_OFFSET(height_bounds_constants, source, 20)
+INTERFACE_OFFSET(height_bounds_constants, source_columns, 24)
+INTERFACE_OFFSET(height_bounds_constants, source_rows, 28)
 
 // One displaced instance, seen by a camera (std140). Lengths are metres in the world unless they
 // are said to be the object's.
@@ -86,9 +123,9 @@ struct displacement_constants {
     float near_plane;
     float spacing;       // of vertices, pixels
     float relief;        // of height 1, the object's lengths
-    float reach;         // how far displaced points can be from the base
-    float scale;         // metres per object's length
-    float least_level;   // of the height map
+    float stretch;       // metres per object's length, at most
+    float scale;         // the same, on the average
+    float facing;        // which way fronts wind: 1, -1 if mirrored; 0: backs are seen, too
     uint width, height;  // texels of the height map
     uint wrap_u, wrap_v; // WRAP_...
     uint second_set;     // of texture coordinates
@@ -101,8 +138,12 @@ struct displacement_constants {
     float4 eye;        // w: 0: no place
     // Where a light is (w: 1), or which way it shines (w: 0).
     float4 casters[PATCH_CASTERS];
+    uint bounds_levels; // of the squares with the heights' bounds
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
-INTERFACE_SIZE(displacement_constants, 336)
+INTERFACE_SIZE(displacement_constants, 352)
 INTERFACE_OFFSET(displacement_constants, axis, 48)
 INTERFACE_OFFSET(displacement_constants, planes, 64)
 INTERFACE_OFFSET(displacement_constants, map_rows, 144)
@@ -111,9 +152,9 @@ INTERFACE_OFFSET(displacement_constants, perspective, 180)
 INTERFACE_OFFSET(displacement_constants, near_plane, 184)
 INTERFACE_OFFSET(displacement_constants, spacing, 188)
 INTERFACE_OFFSET(displacement_constants, relief, 192)
-INTERFACE_OFFSET(displacement_constants, reach, 196)
+INTERFACE_OFFSET(displacement_constants, stretch, 196)
 INTERFACE_OFFSET(displacement_constants, scale, 200)
-INTERFACE_OFFSET(displacement_constants, least_level, 204)
+INTERFACE_OFFSET(displacement_constants, facing, 204)
 INTERFACE_OFFSET(displacement_constants, width, 208)
 INTERFACE_OFFSET(displacement_constants, height, 212)
 INTERFACE_OFFSET(displacement_constants, wrap_u, 216)
@@ -128,6 +169,7 @@ INTERFACE_OFFSET(displacement_constants, triangle_room, 248)
 INTERFACE_OFFSET(displacement_constants, caster_count, 252)
 INTERFACE_OFFSET(displacement_constants, eye, 256)
 INTERFACE_OFFSET(displacement_constants, casters, 272)
+INTERFACE_OFFSET(displacement_constants, bounds_levels, 336)
 
 #define WRAP_REPEAT 0
 #define WRAP_MIRROR 1

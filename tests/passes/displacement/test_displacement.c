@@ -8,125 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/builtin/random.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-#include "shaders/interface/displacement/displacement.h"
-#include "tests/passes/support/pass_run.h"
+#include "tests/passes/displacement/drawn_geometry.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
-
-// ---------------------------------------------------------------------------------------------
-// Scenes
-
-static lobe_image random_heights(uint32_t width, uint32_t height) {
-    return random_map(width, height, 0, 1, 77);
-}
-
-static void add(lobe_scene *scene, lobe_mesh *mesh, const lobe_material *material,
-                const float transform[16]) {
-    uint32_t mesh_index, material_index;
-    assert_int_equal(scenes_add_mesh(scene, mesh, NULL, &mesh_index), LOBE_OK);
-    assert_int_equal(scenes_add_material(scene, "relief", material, NULL, &material_index),
-                     LOBE_OK);
-    assert_int_equal(scenes_add_instance(scene, mesh_index, material_index, transform, NULL),
-                     LOBE_OK);
-}
-
-static lobe_material relief(lobe_scene *scene, lobe_image heights, float scale) {
-    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.6, 0);
-    material.height_map = scene_add_map(scene, heights);
-    material.height_scale = scale;
-    return material;
-}
-
-/// `quads` x `quads` of one metre around the origin, with `tiles` of texture coordinates on each.
-static lobe_mesh tiled_plane(uint32_t quads, float tiles) {
-    lobe_mesh mesh;
-    const uint32_t side = quads + 1;
-    assert_int_equal(scenes_mesh_allocate(&mesh, "plane", side * side, 6 * quads * quads, NULL),
-                     LOBE_OK);
-    for (uint32_t i = 0; i < side * side; i++) {
-        const float x = (float)(i % side), z = (float)(i / side);
-        mesh.vertices[i] = (lobe_scene_vertex){
-            .position = {x - 0.5f * (float)quads, 0, z - 0.5f * (float)quads},
-            .normal = {0, 1, 0},
-            .tangent = {1, 0, 0, 1},
-            .texture_coordinates = {{tiles * x, tiles * z}},
-            .colour = {1, 1, 1, 1},
-        };
-    }
-    scenes_shape_grid_indices(quads, quads, mesh.indices);
-    mesh.has_texture_coordinates[0] = true;
-    scenes_mesh_compute_bounds(&mesh);
-    return mesh;
-}
-
-static lobe_scene *plane_scene(uint32_t quads, float tiles, lobe_image heights, float scale,
-                               double seen) {
-    lobe_scene *scene = scene_begin();
-    const lobe_material material = relief(scene, heights, scale);
-    lobe_mesh mesh = tiled_plane(quads, tiles);
-    add(scene, &mesh, &material, NULL);
-    scene_look_down(scene, seen);
-    scene_end(scene);
-    return scene;
-}
-
-// ---------------------------------------------------------------------------------------------
-// Geometry that is read back
-
-typedef struct geometry {
-    lobe_scene_vertex *vertices;
-    uint32_t *indices;
-    uint32_t words[PATCH_WORDS]; ///< arguments
-    uint32_t vertex_count, triangle_count;
-} geometry;
-
-static void *copy(const lobe_graph *graph, lobe_resource resource, size_t size) {
-    size_t found = 0;
-    const void *data = lobe_graph_data(graph, resource, &found);
-    assert_non_null(data);
-    assert_true(size <= found);
-    void *result = malloc(size + 1);
-    assert_non_null(result);
-    return memcpy(result, data, size);
-}
-
-/// The geometry of the first instance, made as a frame makes it.
-static geometry make(fixture *f, const lobe_scene *scene, uint32_t extent, const char *spacing) {
-    pass_run run;
-    displacement *state = NULL;
-    const char *assignments[] = {"displacement=geometry", spacing, NULL};
-    pass_run_begin(&run, f, scene, "direct", assignments);
-    run.context.view.width = run.context.view.height = extent;
-    assert_int_equal(passes_displacement_prepare(&state, &run.context, run.scene), LOBE_OK);
-    lobe_graph_begin(f->graph);
-    passes_displacement(state, &run.context, run.scene, true);
-    assert_non_null(run.scene->displaced);
-    const displaced_geometry displaced = run.scene->displaced[0];
-    const lobe_resource buffers[] = {displaced.vertices, displaced.indices, displaced.arguments};
-    for (int i = 0; i < 3; i++)
-        lobe_graph_read_back(f->graph, buffers[i], (lobe_range){0});
-    pass_run_execute(&run);
-    geometry g;
-    memcpy(g.words, lobe_graph_data(f->graph, displaced.arguments, NULL), sizeof g.words);
-    g.vertex_count = g.words[PATCH_TOTALS];
-    g.triangle_count = g.words[PATCH_TOTALS + 1];
-    assert_int_equal(g.words[PATCH_DRAW], 3 * g.triangle_count);
-    g.vertices = copy(f->graph, displaced.vertices, g.vertex_count * sizeof *g.vertices);
-    g.indices = copy(f->graph, displaced.indices, g.triangle_count * 3 * sizeof *g.indices);
-    lobe_graph_begin(f->graph);
-    passes_displacement_destroy(&state);
-    pass_run_end(&run);
-    return g;
-}
-
-static void discard(geometry *g) {
-    free(g->vertices);
-    free(g->indices);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Heights
@@ -175,8 +62,8 @@ static void check_heights(fixture *f, double seen, const char *spacing, double p
                           uint32_t segments, double level) {
     enum { QUADS = 100, EXTENT = 64 };
     const float scale = -0.3f;
-    lobe_scene *scene = plane_scene(QUADS, 2, random_heights(MAP, MAP), scale, seen);
-    geometry g = make(f, scene, EXTENT, spacing);
+    lobe_scene *scene = plane_with_heights(QUADS, 2, random_heights(MAP, MAP), scale, seen);
+    drawn_geometry g = displaced_geometry_of(f, scene, EXTENT, spacing);
     const uint32_t of_patch = (segments + 1) * (segments + 2) / 2;
     assert_int_equal(g.words[PATCH_SPACING], 0);
     assert_true(g.vertex_count > 0);
@@ -198,7 +85,7 @@ static void check_heights(fixture *f, double seen, const char *spacing, double p
     assert_true(checked > 20);
     // Vertices are as close as asked for, or as a patch allows.
     assert_true(segments == 64 || EXTENT / seen / segments <= pixels * 1.001);
-    discard(&g);
+    drawn_geometry_free(&g);
     lobe_scene_destroy(&scene);
 }
 
@@ -218,16 +105,16 @@ static void a_ramp_is_a_ramp(void **state) {
     lobe_image map = map_image(LOBE_FORMAT_RGBA32_FLOAT, 256, 256);
     for (int i = 0; i < 256 * 256; i++)
         ((float *)map.texels)[4 * i] = ((float)(i % 256) + 0.5f) / 256;
-    lobe_scene *scene = plane_scene(1, 0.5f, map, 1, 1.1);
+    lobe_scene *scene = plane_with_heights(1, 0.5f, map, 1, 1.1);
     for (int i = 0; i < 4; i++) // away from where the map repeats
         scene->meshes[0].vertices[i].texture_coordinates[0][0] += 0.25f;
-    geometry g = make(f, scene, 200, "pixels_per_vertex=5.3");
+    drawn_geometry g = displaced_geometry_of(f, scene, 200, "pixels_per_vertex=5.3");
     for (uint32_t i = 0; i < g.vertex_count; i++) {
         const double u = 0.25 + 0.5 * (g.vertices[i].position[0] + 0.5);
         assert_float_equal(g.vertices[i].position[1], 2 * u, 1e-5); // a tile is two metres wide
     }
     assert_true(g.vertex_count > 500);
-    discard(&g);
+    drawn_geometry_free(&g);
     lobe_scene_destroy(&scene);
 }
 
@@ -253,7 +140,7 @@ static int compare_edges(const void *a, const void *b) {
 
 /// Edges of triangles that have three places, in order; those of the opposite direction if
 /// `reversed`.
-static directed_edge *list_edges(const geometry *g, bool reversed, size_t *count) {
+static directed_edge *list_edges(const drawn_geometry *g, bool reversed, size_t *count) {
     directed_edge *edges = malloc(3 * (g->triangle_count + 1) * sizeof *edges);
     assert_non_null(edges);
     *count = 0;
@@ -275,7 +162,7 @@ static directed_edge *list_edges(const geometry *g, bool reversed, size_t *count
 
 /// Each edge is there as often in one direction as in the other, to the bit: no crack, and no
 /// vertex in the middle of an edge. (Of triangles without area both directions are there, too.)
-static void assert_closed(const geometry *g) {
+static void assert_closed(const drawn_geometry *g) {
     size_t count, reversed_count;
     directed_edge *edges = list_edges(g, false, &count);
     directed_edge *reversed = list_edges(g, true, &reversed_count);
@@ -289,7 +176,7 @@ static void assert_closed(const geometry *g) {
 
 static lobe_scene *closed_scene(int kind, const float eye[3], const float transform[16]) {
     lobe_scene *scene = scene_begin();
-    lobe_material material = relief(scene, random_heights(96, 40), 0.1f);
+    lobe_material material = material_with_heights(scene, random_heights(96, 40), 0.1f);
     if (kind == 2)
         material.height_map.wrap_u = LOBE_SCENE_WRAP_MIRROR;
     lobe_mesh mesh;
@@ -297,7 +184,7 @@ static lobe_scene *closed_scene(int kind, const float eye[3], const float transf
         assert_int_equal(scenes_shape_box((float[]){1, 1.3f, 0.7f}, 0.9f, NULL, &mesh), LOBE_OK);
     else // a seam, and triangles without area at the poles
         assert_int_equal(scenes_shape_sphere(8, 12, 3.2f, 1.7f, NULL, &mesh), LOBE_OK);
-    add(scene, &mesh, &material, transform);
+    add_instance_of(scene, &mesh, &material, transform);
     scene_add_sun(scene, (double[]){1, 2, 3}, 2);
     scene->camera =
         (lobe_camera){.up = {0, 1, 0}, .vertical_field_of_view = 2.2f, .near_plane = 0.01f};
@@ -315,9 +202,10 @@ static void closed_surfaces_stay_closed(void **state) {
     for (int kind = 0; kind < 3; kind++) {
         for (int view = 0; view < 3; view++) {
             lobe_scene *scene = closed_scene(kind, eyes[view], NULL);
-            geometry g = make(f, scene, 150, spacings[view]);
+            scene->materials[0].double_sided = true; // or backs are left out
+            drawn_geometry g = displaced_geometry_of(f, scene, 150, spacings[view]);
             assert_closed(&g);
-            discard(&g);
+            drawn_geometry_free(&g);
             lobe_scene_destroy(&scene);
         }
     }
@@ -386,7 +274,7 @@ static void double_factor_is_double_height(void **state) {
         lobe_image map = random_heights(32, 32);
         for (int k = 0; k < 4 * 32 * 32; k++)
             ((float *)map.texels)[k] *= i == 0 ? 0.5f : 0.25f;
-        lobe_scene *scene = plane_scene(3, 1, map, i == 0 ? 0.25f : 0.5f, 2);
+        lobe_scene *scene = plane_with_heights(3, 1, map, i == 0 ? 0.25f : 0.5f, 2);
         frames[i] = draw_scene(f, scene, &displaced_picture);
         lobe_scene_destroy(&scene);
     }
@@ -453,7 +341,7 @@ static double largest_step(fixture *f, const lobe_scene *scene, double a, double
 /// those times sqrt(2).
 static void surfaces_do_not_jump(void **state) {
     fixture *f = *state;
-    lobe_scene *scene = plane_scene(3, 1, random_heights(32, 32), 0.4f, 2);
+    lobe_scene *scene = plane_with_heights(3, 1, random_heights(32, 32), 0.4f, 2);
     const double crossings[] = {8, 4, 8 / sqrt(2.0), 16 / sqrt(2.0)};
     for (int i = 0; i < 4; i++) {
         const double spacing = crossings[i];
@@ -530,19 +418,19 @@ static void everything_draws_it(void **state) {
 /// Close to a plane, many more vertices are asked for than there is room for.
 static void geometry_has_a_limit(void **state) {
     fixture *f = *state;
-    lobe_scene *scene = plane_scene(60, 4, random_heights(64, 64), 0.01f, 1);
+    lobe_scene *scene = plane_with_heights(60, 4, random_heights(64, 64), 0.01f, 1);
     scene->camera = (lobe_camera){.eye = {0, 0.05f, 0},
                                   .target = {1, 0.04f, 0},
                                   .up = {0, 1, 0},
                                   .vertical_field_of_view = 1,
                                   .near_plane = 0.001f};
-    geometry g = make(f, scene, 64, "pixels_per_vertex=1");
+    drawn_geometry g = displaced_geometry_of(f, scene, 64, "pixels_per_vertex=1");
     assert_true(g.words[PATCH_SPACING] > 0);
     assert_true(g.vertex_count > 1000 && g.vertex_count <= 16 * 64 * 64 + 4096);
     assert_true(g.triangle_count <= 16 * 64 * 64 + 4096);
     for (uint32_t i = 0; i < 3 * g.triangle_count; i++)
         assert_true(g.indices[i] < g.vertex_count);
-    discard(&g);
+    drawn_geometry_free(&g);
     lobe_scene_destroy(&scene);
 }
 
@@ -566,7 +454,7 @@ static lobe_result try_drawing(fixture *f, const lobe_scene *scene) {
 
 static void heights_are_numbers(void **state) {
     fixture *f = *state;
-    lobe_scene *scene = plane_scene(1, 1, random_heights(8, 8), 0.1f, 1);
+    lobe_scene *scene = plane_with_heights(1, 1, random_heights(8, 8), 0.1f, 1);
     ((float *)scene->images[0].image.texels)[20] = NAN;
     // Without a normal map, heights are needed earlier (tests/passes/upload/test_height_normals.c).
     scene->materials[0].normal_map = scene_add_map(scene, constant_map(1, 1, 0.5f, 0.5f, 1));
@@ -583,7 +471,7 @@ static void heights_are_numbers(void **state) {
 static void what_cannot_be_displaced_is_drawn(void **state) {
     fixture *f = *state;
     for (int i = 0; i < 4; i++) {
-        lobe_scene *scene = plane_scene(2, 1, random_heights(8, 8), 0.1f, 1);
+        lobe_scene *scene = plane_with_heights(2, 1, random_heights(8, 8), 0.1f, 1);
         lobe_mesh *mesh = &scene->meshes[0];
         if (i == 0)
             mesh->has_texture_coordinates[0] = false;
@@ -612,8 +500,8 @@ static void odd_maps_and_triangles_are_drawn(void **state) {
     fixture *f = *state;
     static const uint32_t sizes[][2] = {{1, 1}, {1, 7}, {300, 1}, {5, 3}};
     for (int i = 0; i < 4; i++) {
-        lobe_scene *scene =
-            plane_scene(2, 1.7f, random_heights(sizes[i][0], sizes[i][1]), i % 2 ? 0.1f : -0.1f, 1);
+        lobe_scene *scene = plane_with_heights(2, 1.7f, random_heights(sizes[i][0], sizes[i][1]),
+                                               i % 2 ? 0.1f : -0.1f, 1);
         scene->materials[0].height_map.wrap_u = (lobe_scene_wrap)(i % 3);
         scene->materials[0].height_map.wrap_v = (lobe_scene_wrap)((i + 1) % 3);
         scene->meshes[0].indices[1] = scene->meshes[0].indices[0];
