@@ -17,7 +17,7 @@
 #else
 
 #include "shading/slope_maps.glsl"
-#include "lib/microfacet/slope_masking.glsl"
+#include "lib/microfacet/seen_slopes.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
@@ -33,8 +33,10 @@ float height_scale() {
 struct footprint_lobe {
     slope_distribution facets; // texels' slopes: facets of the Lambert part
     slope_distribution slopes; // base lobes included: facets that mirror
-    // The same, as far as they mask each other and decide how large the surface is that is seen.
-    slope_distribution masking_facets, masking_slopes;
+    // Of displaced geometry: which part of a slope's distance from the mean is undrawn relief, so
+    // that the facet's area depends on it.
+    float undrawn_facets, undrawn_slopes;
+    slope_distribution shadowing_facets, shadowing_slopes; // of what shadows them
 };
 
 #include "shading/slope_appearance.glsl"
@@ -52,44 +54,58 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     slope_distribution facets = slope_distribution_of(moments.mean, moments.covariance);
     slope_distribution slopes =
         slope_distribution_of(moments.mean, moments.covariance + base_covariance(moments));
-    return footprint_lobe(facets, slopes, facets, slopes);
+    return footprint_lobe(facets, slopes, 1.0, 1.0, facets, slopes);
 }
 
-// At outlines, facets may be turned away from the viewer where the triangle is not: what is seen is
-// the triangle. How far slopes move to its slope: until the mean plane appears at least this much
-// as large as the triangle does. Where the base itself is seen well, facets that are turned away
-// make up for others that are not.
-const float LEAST_HEIGHT = 0.25;
-const float OUTLINE_BEGIN = 0.26, OUTLINE_END = 0.15; // cosines of the base to the viewer
-
-float share_of_outline(vec2 mean, surface_point surface) {
-    float height = height_above_slope(mean, surface.outgoing);
-    float drawn = max(height_above_slope(surface.drawn_slope, surface.outgoing), 0.0);
-    float needed = (LEAST_HEIGHT * drawn - height) / max(drawn - height, 1e-6);
-    return clamp(needed, 0.0, 1.0) * (1.0 - smoothstep(OUTLINE_END, OUTLINE_BEGIN,
-                                                       surface.outgoing.z));
+float trace(vec3 covariance) {
+    return covariance.x + covariance.y;
 }
 
-// Displaced triangles hide each other by themselves, and what is seen is the area of a triangle.
-// Only the relief between their vertices is left to mask: slopes about the triangle's own, with the
-// covariance of the level whose texels are as large as vertices are apart. The distribution of
-// normals stays the footprint's. (The paper takes the footprint's for both: what is larger than a
-// pixel and smaller than a triangle then masks nothing.) Where a pixel is as large as triangles,
-// the footprint's own mean and covariance hold: blended over one level.
-void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+// Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
+// is seen. The area that facets show counts only as far as their slopes are those of relief that is
+// not drawn: of what is finer than the level whose texels are as large as vertices are apart, whose
+// covariance that of `between` is. (The paper takes the footprint's own, so that the mean
+// brightness depends on the size of triangles.)
+//
+// Where pixels are smaller than triangles, undrawn relief is larger than a pixel, too: such slopes
+// would be seen more often if they face the viewer. The footprint's mean moves to where it is in
+// the distribution of those. Where pixels are larger, part of their own covariance is drawn.
+//
+// What is not drawn shadows, too, about the triangle's slope where pixels are smaller than it.
+void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
                        surface_point surface) {
     float level = level_of_vertices(surface);
     float share = clamp(level - area.level, 0.0, 1.0);
-    float outline = share_of_outline(moments.mean, surface);
-    vec2 moved = outline * (surface.drawn_slope - moments.mean);
-    lobe.facets.mean += moved;
-    lobe.slopes.mean += moved;
-    share = max(share, outline);
     slope_moments between = fetch_level(area.centre, level, surface);
-    vec2 mean = mix(moments.mean, surface.drawn_slope, share);
-    vec3 covariance = mix(moments.covariance, between.covariance, share);
-    lobe.masking_facets = slope_distribution_of(mean, covariance);
-    lobe.masking_slopes = slope_distribution_of(mean, covariance + base_covariance(moments));
+    vec3 base = base_covariance(moments);
+    float own = trace(moments.covariance), undrawn = trace(between.covariance);
+    slope_distribution larger = slope_distribution_of(
+        between.mean,
+        share * max(undrawn - own, 0.0) / max(undrawn, 1e-12) * between.covariance);
+    vec2 mean =
+        slope_that_is_seen(moments.mean, larger,
+                           height_above_slope(surface.drawn_slope, surface.outgoing),
+                           surface.outgoing);
+    mean = facing_slope(mean, surface);
+    lobe.facets.mean = lobe.slopes.mean = mean;
+    lobe.undrawn_facets = min(undrawn / max(own, 1e-12), 1.0);
+    lobe.undrawn_slopes = min((undrawn + trace(base)) / max(own + trace(base), 1e-12), 1.0);
+    vec2 shadowing = mix(mean, surface.drawn_slope, share);
+    lobe.shadowing_facets = slope_distribution_of(shadowing, between.covariance);
+    lobe.shadowing_slopes = slope_distribution_of(shadowing, between.covariance + base);
+}
+
+slope_distribution undrawn_slopes(slope_distribution slopes, float part) {
+    return slope_distribution(slopes.mean, part * slopes.root);
+}
+
+// The part of the facets that both directions see.
+float visibility(slope_distribution slopes, float undrawn, slope_distribution shadowing,
+                 vec3 incoming, vec3 outgoing) {
+    if (!DISPLACED)
+        return masking_shadowing_of_slopes(slopes, incoming, outgoing);
+    return masking_of_slopes(undrawn_slopes(slopes, undrawn), outgoing) *
+           shadowing_of_seen_slopes(shadowing, incoming, outgoing);
 }
 
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
@@ -97,22 +113,32 @@ void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_are
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!DIFFUSE || CLOSED)
         return;
-    float height = height_above_slope(fetched.lobe.masking_facets.mean, surface.outgoing);
-    fetched.gathered =
-        facet_sums(fetched.lobe.facets, surface.outgoing, incoming) / max(height, COSINE_MINIMUM);
+    float height = height_above_slope(fetched.lobe.facets.mean, surface.outgoing);
+    fetched.gathered = facet_sums(fetched.lobe.facets, fetched.lobe.undrawn_facets,
+                                  surface.outgoing, incoming) /
+                       max(height, COSINE_MINIMUM);
 }
 
 vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
-    float visible = masking_shadowing_of_slopes(fetched.lobe.masking_facets, incoming, outgoing);
+    footprint_lobe lobe = fetched.lobe;
+    float visible = visibility(lobe.facets, lobe.undrawn_facets, lobe.shadowing_facets, incoming,
+                               outgoing);
     return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
                               visible * fetched.gathered[light]);
 }
 
-// Eq. 17.
+// Eq. 17. D F/4 is of facets that are seen as large as they are.
 vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
-    return microfacet_specular(fresnel, distribution_of_slopes(lobe.slopes, halfway),
-                               masking_shadowing_of_slopes(lobe.masking_slopes, incoming, outgoing),
-                               height_above_slope(lobe.masking_slopes.mean, outgoing));
+    float size = 1.0;
+    if (DISPLACED) {
+        vec2 slope = slope_of_normal(halfway);
+        size = facet_height(lobe.slopes.mean, slope, lobe.undrawn_slopes, outgoing) /
+               max(height_above_slope(slope, outgoing), COSINE_MINIMUM);
+    }
+    return microfacet_specular(fresnel, size * distribution_of_slopes(lobe.slopes, halfway),
+                               visibility(lobe.slopes, lobe.undrawn_slopes, lobe.shadowing_slopes,
+                                          incoming, outgoing),
+                               height_above_slope(lobe.slopes.mean, outgoing));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -230,11 +256,11 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
 // Algorithm 1. Each sample reads the mean over as far as neighbours are apart in the direction in
 // which they are furthest apart, so that no light falls between them (section 5.2; the paper takes
 // the larger of the two axes' deviations, which is less where slopes vary most along a diagonal).
-vec3 sampled_slopes(surface_point surface, slope_distribution slopes, slope_distribution masking,
-                    vec3 f0) {
+vec3 sampled_slopes(surface_point surface, footprint_lobe lobe, vec3 f0) {
+    slope_distribution slopes = lobe.slopes;
     float spacing = grid_spacing();
     float area = spacing * spacing * largest_variance(slopes);
-    float height = height_above_slope(masking.mean, surface.outgoing);
+    float height = height_above_slope(slopes.mean, surface.outgoing);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
@@ -244,8 +270,9 @@ vec3 sampled_slopes(surface_point surface, slope_distribution slopes, slope_dist
             vec3 normal = normal_of_slope(slope);
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
-            float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
-                         masking_shadowing_of_slopes(masking, incoming, surface.outgoing);
+            float seen = facet_height(slopes.mean, slope, lobe.undrawn_slopes, surface.outgoing) *
+                         visibility(slopes, lobe.undrawn_slopes, lobe.shadowing_slopes, incoming,
+                                    surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -267,7 +294,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     if (CLOSED)
         return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
-        return sampled_slopes(surface, slopes, fetched.lobe.masking_slopes, frame.specular);
+        return sampled_slopes(surface, fetched.lobe, frame.specular);
     return reflect_masked_slopes(surface, half_vectors, frame.specular);
 }
 
@@ -275,20 +302,20 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
 // in Algorithm 2: it is unknown which part of the environment's light is shadowed.
 vec3 lambert_slopes(appearance fetched, surface_point surface) {
     slope_distribution facets = fetched.lobe.facets;
+    float undrawn = fetched.lobe.undrawn_facets;
     vec3 sum = vec3(0.0);
     for (uint j = 0u; j < GRID; ++j) {
         for (uint k = 0u; k < GRID; ++k) {
             vec2 position = vec2(grid_position(j), grid_position(k));
             vec2 slope = slope_at(facets, position);
             sum += exp(-0.5 * dot(position, position)) *
-                   max(height_above_slope(slope, surface.outgoing), 0.0) *
+                   facet_height(facets.mean, slope, undrawn, surface.outgoing) *
                    mean_irradiance(surface, normal_of_slope(slope));
         }
     }
     float row = grid_weight();
-    slope_distribution masking = fetched.lobe.masking_facets;
-    float height = height_above_slope(masking.mean, surface.outgoing);
-    float visible = height > 0.0 ? 1.0 / (1.0 + lambda_of_slopes(masking, surface.outgoing)) : 0.0;
+    float height = height_above_slope(facets.mean, surface.outgoing);
+    float visible = masking_of_slopes(undrawn_slopes(facets, undrawn), surface.outgoing);
     return let_through(surface, fetched.filtered) * sum *
            (visible / (row * row * max(height, COSINE_MINIMUM)));
 }

@@ -21,6 +21,7 @@ struct footprint_lobe {
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     moments = fetch_moments(area, surface);
+    moments.mean = facing_slope(moments.mean, surface);
     footprint_lobe result;
     vec3 normal = normal_of_slope(moments.mean);
     result.tangent_from_mean = mat3(rotate_from_pole(normal, vec3(1.0, 0.0, 0.0)),
@@ -33,7 +34,7 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
 }
 
 // Masked about the normal of the texels that reflect, however the triangles lie.
-void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
                        surface_point surface) {
 }
 

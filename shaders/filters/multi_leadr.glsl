@@ -9,7 +9,7 @@
 
 #include "shading/slope_maps.glsl"
 #include "interface/moment_bins.h"
-#include "lib/microfacet/slope_masking.glsl"
+#include "lib/microfacet/seen_slopes.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
@@ -81,21 +81,50 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return result;
 }
 
-// Masked as the footprint is, as in the paper, however the triangles lie.
-void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+// Over a square of a level, around the middle of an area.
+map_area square_of_level(map_area area, float level) {
+    map_area square = area;
+    square.level = max(level, 1.0);
+    square.probes = 1u;
+    vec2 side = exp2(square.level) / lobe_map_size();
+    square.along = vec2(side.x, 0.0);
+    square.across = vec2(0.0, side.y);
+    return square;
+}
+
+// Where pixels are smaller than triangles, all lobes move as leadr.glsl says that its one does.
+// Then the footprint masks itself, as in the paper, however the triangles lie: to mask about the
+// triangle's slope was worse.
+void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
                        surface_point surface) {
+    float level = level_of_vertices(surface);
+    float share = clamp(level - area.level, 0.0, 1.0);
+    slope_moments between = moments;
+    if (share > 0.0)
+        fetch_lobe(square_of_level(area, level), surface, between);
+    float own = moments.covariance.x + moments.covariance.y;
+    float undrawn = between.covariance.x + between.covariance.y;
+    slope_distribution larger = slope_distribution_of(
+        between.mean,
+        share * max(undrawn - own, 0.0) / max(undrawn, 1e-12) * between.covariance);
+    vec2 mean =
+        slope_that_is_seen(moments.mean, larger,
+                           height_above_slope(surface.drawn_slope, surface.outgoing),
+                           surface.outgoing);
+    vec2 moved = facing_slope(mean, surface) - moments.mean;
+    moments.mean += moved;
+    for (uint i = 0u; i < BINS; ++i) {
+        lobe.lobes[i].facets.mean += moved;
+        lobe.lobes[i].slopes.mean += moved;
+    }
 }
 
 // ---------------------------------------------------------------------------------------------
 // Masking
 
-// E[<direction, (-s, 1)>^+], by Smith's Lambda about the slopes' own mean: h (1 + Lambda), h the
-// height above that mean, and where the direction is below it |h| Lambda.
 float mean_height_above(slope_distribution slopes, vec3 direction) {
-    float height = height_above_slope(slopes.mean, direction);
-    float variance = slope_variance_along(slopes, direction.xy);
-    float cotangent = abs(height) * inversesqrt(max(2.0 * variance, 1e-30));
-    return max(height, 0.0) + abs(height) * lambda_gaussian(cotangent);
+    return mean_height(height_above_slope(slopes.mean, direction),
+                       slope_variance_along(slopes, direction.xy));
 }
 
 // 1 + Lambda of the whole mixture; `diffuse`: of the texels' facets, without base lobes. The
@@ -161,7 +190,7 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
     vec4 sums = vec4(0.0);
     for (uint i = 0u; i < BINS; ++i)
         sums += fetched.lobe.lobes[i].part *
-                facet_sums(fetched.lobe.lobes[i].facets, surface.outgoing, incoming);
+                facet_sums(fetched.lobe.lobes[i].facets, 1.0, surface.outgoing, incoming);
     fetched.gathered = sums / divisor_height(fetched, surface.outgoing);
 }
 

@@ -59,6 +59,7 @@ vec4 fetch_averages(map_area area, surface_point surface) {
         float width = averaged_width(unfiltered_material(surface, normal));
         sum = mix(vec4(normal, width), sum, min(area.level, 1.0));
     }
+    sum.xyz = facing_normal(sum.xyz, surface);
     return sum;
 }
 

@@ -40,17 +40,23 @@ vec4 facet_cosines(vec2 slope, vec3 incoming[4]) {
     return max(heights, 0.0) * inversesqrt(1.0 + dot(slope, slope));
 }
 
+// The height of a direction above a facet, of whose distance from the mean slope only a part
+// counts.
+float facet_height(vec2 mean, vec2 slope, float part, vec3 outgoing) {
+    return max(height_above_slope(DISPLACED ? mix(mean, slope, part) : slope, outgoing), 0.0);
+}
+
 // Algorithm 3: the sum of Eq. 23 over a grid of slopes, separately for each light. For a few lights
 // that is exact and costs no more than nine spherical harmonics of the irradiance, whose error is
 // up to 9 %.
-vec4 facet_sums(slope_distribution facets, vec3 outgoing, vec3 incoming[4]) {
+vec4 facet_sums(slope_distribution facets, float part, vec3 outgoing, vec3 incoming[4]) {
     vec4 sums = vec4(0.0);
     for (uint j = 0u; j < GRID; ++j) {
         for (uint k = 0u; k < GRID; ++k) {
             vec2 position = vec2(grid_position(j), grid_position(k));
             vec2 slope = slope_at(facets, position);
             float weight = exp(-0.5 * dot(position, position));
-            sums += weight * max(height_above_slope(slope, outgoing), 0.0) *
+            sums += weight * facet_height(facets.mean, slope, part, outgoing) *
                     facet_cosines(slope, incoming);
         }
     }

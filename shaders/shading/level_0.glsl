@@ -47,7 +47,9 @@ level_0_normals normals_of_level_0(surface_point surface, float level, float rel
 // `normals`: of level 0.
 base_material level_0_material(surface_point surface, level_0_normals normals) {
     base_material base =
-        unfiltered_material(surface, mean_direction(normals.mean, vec3(0.0, 0.0, 1.0)));
+        unfiltered_material(surface,
+                            facing_normal(mean_direction(normals.mean, vec3(0.0, 0.0, 1.0)),
+                                          surface));
     base.variance += normals.variance;
     return base;
 }

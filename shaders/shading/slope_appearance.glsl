@@ -7,7 +7,7 @@
 //   struct footprint_lobe                         what its lobe is made of
 //   footprint_lobe fetch_lobe(map_area, surface_point, out slope_moments)
 //                                                 and the moments of all slopes
-//   void mask_by_triangles(inout footprint_lobe, slope_moments, map_area, surface_point)
+//   void mask_by_triangles(inout footprint_lobe, inout slope_moments, map_area, surface_point)
 //                                                 for displaced geometry
 //   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
@@ -31,7 +31,7 @@ struct appearance {
 };
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments);
-void mask_by_triangles(inout footprint_lobe lobe, slope_moments moments, map_area area,
+void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
                        surface_point surface);
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);

@@ -84,12 +84,15 @@ float level_of_vertices(surface_point surface) {
     return max(log2(max(surface.vertex_spacing * pixel.minor_axis, 1.0)), 0.0);
 }
 
-// Moments over a square of a level.
+// Moments over a square of a level. A texel's slopes do not vary.
 slope_moments fetch_level(vec2 centre, float level, surface_point surface) {
     float fetched = max(level - 1.0, 0.0);
-    return moments_of_layers(textureLod(moment_map, vec3(centre, SLOPE_LAYER_FIRST), fetched),
-                             textureLod(moment_map, vec3(centre, SLOPE_LAYER_SECOND), fetched),
-                             surface);
+    slope_moments moments =
+        moments_of_layers(textureLod(moment_map, vec3(centre, SLOPE_LAYER_FIRST), fetched),
+                          textureLod(moment_map, vec3(centre, SLOPE_LAYER_SECOND), fetched),
+                          surface);
+    moments.covariance *= min(level, 1.0);
+    return moments;
 }
 
 #endif

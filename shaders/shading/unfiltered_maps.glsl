@@ -3,6 +3,7 @@
 
 // One sample of the maps as they are, without any filtering over the pixel.
 
+#include "lib/map/facing_slope.glsl"
 #include "shading/base_material.glsl"
 #include "shading/unfiltered_texel.glsl"
 
@@ -11,11 +12,20 @@ vec3 stretched_normal(vec3 normal, surface_point surface) {
     return STRETCHED ? normalize(vec3(surface.stretch * normal.xy, normal.z)) : normal;
 }
 
+vec2 facing_slope(vec2 slope, surface_point surface) {
+    return DISPLACED ? facing_slope(slope, surface.drawn_slope, surface.outgoing) : slope;
+}
+
+vec3 facing_normal(vec3 normal, surface_point surface) {
+    return DISPLACED ? facing_normal(normal, surface.drawn_slope, surface.outgoing) : normal;
+}
+
 vec3 unfiltered_normal(surface_point surface) {
     if (!has_map(MAP_NORMAL))
-        return vec3(0.0, 0.0, 1.0);
-    return stretched_normal(decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
-                                          material.normal_scale, NORMALS), surface);
+        return facing_normal(vec3(0.0, 0.0, 1.0), surface);
+    vec3 texel = decode_normal(unfiltered_texel(MAP_NORMAL, normal_map, surface).xyz,
+                               material.normal_scale, NORMALS);
+    return facing_normal(stretched_normal(texel, surface), surface);
 }
 
 // glTF 2.0, section 3.9.3, for a texel of the occlusion map or a mean of texels.
