@@ -7,7 +7,8 @@
 #include <lobe/ocean.h>
 
 #include "engine/shader/shaders.h"
-#include "tools/scenes/ocean_scene.h"
+#include "tools/animation/terrain_maps.h"
+#include "tools/scenes/outdoors/ocean_scene.h"
 
 extern const engine_shader_code animation_shaders[];
 extern const size_t animation_shaders_count;
@@ -28,6 +29,9 @@ struct animation {
     uint32_t image;         ///< of the scene
     const char *shader;     ///< NULL: there is none
     uint32_t width, height; ///< texels
+    // Maps of a terrain.
+    bool has_terrain;
+    terrain_maps terrain;
     // Waves.
     lobe_ocean *ocean;
     uint32_t material; ///< that has them
@@ -58,7 +62,9 @@ static lobe_resource add_pass(const animation *a, lobe_graph *graph) {
 
 static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
     const animation *a = user;
-    if (a->ocean)
+    if (a->has_terrain)
+        terrain_maps_give(&a->terrain, graph, content->images);
+    else if (a->ocean)
         content->waves[a->material] = lobe_ocean_add(a->ocean, graph, a->seconds);
     else
         content->images[a->image] = add_pass(a, graph);
@@ -140,6 +146,20 @@ static lobe_result create_waves(lobe_device *device, const lobe_scene *scene, si
     return lobe_ocean_create(device, &sea, host, &(*result)->ocean);
 }
 
+/// Its maps stay the same, its camera flies.
+static lobe_result create_terrain(lobe_device *device, lobe_scene *scene, const terrain_maps *maps,
+                                  const lobe_host *host, animation **result) {
+    lobe_result status = allocate(scene, host, result);
+    if (status != LOBE_OK)
+        return status;
+    (*result)->scene = scene;
+    (*result)->has_terrain = true;
+    (*result)->terrain = *maps;
+    status =
+        engine_shaders_add(device, animation_shaders, animation_shaders_count, ANIMATION_SHADERS);
+    return status ? status : animation_set_time(*result, 0);
+}
+
 static lobe_result create_pose(lobe_scene *scene, const lobe_host *host, animation **result) {
     lobe_result status = allocate(scene, host, result);
     if (status != LOBE_OK)
@@ -157,12 +177,15 @@ lobe_result animation_create(lobe_device *device, lobe_scene *scene, const lobe_
     size_t material = 0;
     while (material < scene->material_count && scene->materials[material].waves.layers == 0)
         ++material;
-    const bool has_map = index < scene->image_count, has_waves = material < scene->material_count;
+    terrain_maps terrain;
+    const bool has_map = index < scene->image_count, has_waves = material < scene->material_count,
+               has_terrain = terrain_maps_find(scene, &terrain);
     if (!has_map && !has_waves && (!scene->rig || scene->rig->animation_count == 0))
         return LOBE_OK;
-    const lobe_result status = has_map     ? create_map(device, scene, index, host, result)
-                               : has_waves ? create_waves(device, scene, material, host, result)
-                                           : create_pose(scene, host, result);
+    const lobe_result status = has_map       ? create_map(device, scene, index, host, result)
+                               : has_waves   ? create_waves(device, scene, material, host, result)
+                               : has_terrain ? create_terrain(device, scene, &terrain, host, result)
+                                             : create_pose(scene, host, result);
     if (status != LOBE_OK)
         animation_destroy(result);
     return status;
@@ -178,7 +201,8 @@ void animation_destroy(animation **animation) {
 }
 
 void animation_attach(animation *animation, lobe_renderer *renderer) {
-    const bool gives = animation && (animation->shader || animation->ocean);
+    const bool gives =
+        animation && (animation->shader || animation->ocean || animation->has_terrain);
     lobe_renderer_set_content_giver(renderer, gives ? give : NULL, animation);
 }
 

@@ -6,7 +6,8 @@
 #include "tools/scenes/asset_scene.h"
 #include "tools/scenes/fields_scene.h"
 #include "tools/scenes/flag_scene.h"
-#include "tools/scenes/ocean_scene.h"
+#include "tools/scenes/outdoors/ocean_scene.h"
+#include "tools/scenes/outdoors/terrain_scene.h"
 #include "tools/scenes/relief/relief_scenes.h"
 
 typedef struct own_scene {
@@ -40,6 +41,9 @@ static const own_scene own_scenes[] = {
     {{"furnace", "the same, white, in white light: what a filter loses of it is seen", false,
       "displaced"},
      relief_scene_furnace},
+    {{"terrain", "mountains around a valley under sun and sky; the camera flies a loop", false,
+      "leadr"},
+     terrain_scene},
 };
 enum { OWN_SCENES = sizeof own_scenes / sizeof *own_scenes };
 

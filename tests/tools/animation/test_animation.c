@@ -141,6 +141,45 @@ static void the_sea_moves(void **state) {
     stop(&p);
 }
 
+/// Of a smaller map than the scene's: the heights are nowhere on the host.
+static void a_terrain_is_made_on_the_device(void **state) {
+    fixture *f = *state;
+    playing p = {.f = f};
+    assert_int_equal(scene_list_open("terrain", NULL, false, &f->host, &p.scene), LOBE_OK);
+    for (size_t i = 0; i < p.scene->image_count; i++) {
+        assert_true(p.scene->images[i].on_device);
+        assert_null(p.scene->images[i].image.texels);
+        assert_int_equal(p.scene->images[i].image.width, 8192);
+        p.scene->images[i].image.width = p.scene->images[i].image.height = 256;
+    }
+    assert_int_equal(animation_create(f->device, p.scene, &f->host, &p.animation), LOBE_OK);
+    assert_float_equal(animation_duration(p.animation), 20, 1e-6);
+    animation_attach(p.animation, f->renderer);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, p.scene), LOBE_OK);
+    picture_request request = {.filter = "leadr", .width = 96, .height = 54};
+    assert_int_equal(animation_set_time(p.animation, 4), LOBE_OK);
+    lobe_frame flat = draw(f, &request);
+    request.settings[0] = "displacement=geometry";
+    lobe_frame first = draw(f, &request);
+    assert_true(all_finite(&first.radiance));
+    assert_true(relative_l2(&first.radiance, &flat.radiance) > 0.1);
+    // It flies, and its maps are made once.
+    assert_int_equal(animation_set_time(p.animation, 10), LOBE_OK);
+    lobe_frame far = draw(f, &request);
+    assert_true(relative_l2(&far.radiance, &first.radiance) > 0.1);
+    lobe_graph *graph = lobe_renderer_graph(f->renderer);
+    assert_int_equal(count_passes(graph, "terrain_heights", LOBE_PASS_SKIPPED), 1);
+    assert_int_equal(count_passes(graph, "terrain_normals", LOBE_PASS_SKIPPED), 1);
+    assert_int_equal(animation_set_time(p.animation, 4), LOBE_OK);
+    lobe_frame again = draw(f, &request);
+    assert_true(image_hash(&again.radiance) == image_hash(&first.radiance));
+    lobe_frame_free(&flat);
+    lobe_frame_free(&first);
+    lobe_frame_free(&far);
+    lobe_frame_free(&again);
+    stop(&p);
+}
+
 static void other_scenes_stand_still(void **state) {
     playing p = play(*state, "checkerboard");
     assert_null(p.animation);
@@ -245,6 +284,7 @@ int main(void) {
         cmocka_unit_test(filters_follow_the_texels),
         cmocka_unit_test(rain_falls),
         cmocka_unit_test(the_sea_moves),
+        cmocka_unit_test(a_terrain_is_made_on_the_device),
         cmocka_unit_test(other_scenes_stand_still),
         cmocka_unit_test(rigs_are_posed),
     };

@@ -172,7 +172,7 @@ def test_scenes_are_listed():
     names = [line.split()[0] for line in lines]
     check(names == ["checkerboard", "bumps", "tablecloth", "pillow", "hall", "bunny", "dragon",
                     "rain", "cloth", "ocean", "fields", "flag", "twill", "cobbles",
-                    "studs", "furnace"], str(names))
+                    "studs", "furnace", "terrain"], str(names))
     check(all(len(line.split()) > 3 for line in lines), "no summaries")
 
 

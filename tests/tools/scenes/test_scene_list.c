@@ -206,10 +206,10 @@ static void the_list_has_the_builtin_scenes_and_the_programs_own(void **state) {
     const size_t builtin = lobe_builtin_scene_count();
     static const struct {
         const char *name, *filter;
-    } own[] = {{"bunny", "moments"},   {"dragon", "moments"},   {"rain", "moments"},
-               {"cloth", "moments"},   {"ocean", "leadr"},      {"fields", "moments"},
-               {"flag", "leadr"},      {"twill", "displaced"},  {"cobbles", "displaced"},
-               {"studs", "displaced"}, {"furnace", "displaced"}};
+    } own[] = {{"bunny", "moments"},   {"dragon", "moments"},    {"rain", "moments"},
+               {"cloth", "moments"},   {"ocean", "leadr"},       {"fields", "moments"},
+               {"flag", "leadr"},      {"twill", "displaced"},   {"cobbles", "displaced"},
+               {"studs", "displaced"}, {"furnace", "displaced"}, {"terrain", "leadr"}};
     assert_int_equal(scene_list_count(), builtin + sizeof own / sizeof *own);
     for (size_t i = 0; i < scene_list_count(); i++) {
         const listed_scene scene = scene_list_get(i);

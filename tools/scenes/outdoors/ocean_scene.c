@@ -1,19 +1,13 @@
-#include "tools/scenes/ocean_scene.h"
+#include "tools/scenes/outdoors/ocean_scene.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "scenes/builtin/assembly.h"
-#include "scenes/environment/daylight.h"
-#include "scenes/environment/direction.h"
-#include "scenes/environment/environment.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
-
-// To the sun, 20 degrees high.
-static const vector3 sun = {0.1288, 0.3420, -0.9308};
-#define TURBIDITY 3.0
+#include "tools/scenes/outdoors/daylight_light.h"
 
 void ocean_scene_sea(lobe_ocean_parameters *sea) {
     lobe_ocean_default(sea);
@@ -82,53 +76,11 @@ static lobe_result add_plane(lobe_scene *scene, const lobe_host *host) {
 // ---------------------------------------------------------------------------------------------
 // Light
 
-static lobe_result add_sun(lobe_scene *scene, const double irradiance[3], const lobe_host *host) {
-    lobe_light light = {.type = LOBE_LIGHT_DIRECTIONAL};
-    vector3_store(vector3_scale(sun, -1 / vector3_length(sun)), light.direction);
-    for (int i = 0; i < 3; i++)
-        light.intensity[i] = (float)irradiance[i];
-    return scenes_add_light(scene, &light, host);
-}
-
-/// The sky without the sun's disc, and under it what the horizon shows: light from below never
-/// reaches the sea.
-static void paint(lobe_environment *sky, const daylight *light, double factor) {
-    float *texel = sky->image.texels;
-    for (uint32_t y = 0; y < sky->image.height; y++)
-        for (uint32_t x = 0; x < sky->image.width; x++, texel += 4) {
-            const double position[2] = {x + 0.5, y + 0.5};
-            double direction[3], rgb[3];
-            scenes_environment_direction(sky->layout, sky->image.width, sky->image.height, position,
-                                         direction);
-            scenes_daylight_sky(light, (vector3){direction[0], direction[1], direction[2]}, rgb);
-            for (int i = 0; i < 3; i++)
-                texel[i] = (float)fmax(factor * rgb[i], 0);
-            texel[3] = 1;
-        }
-}
-
-/// As bright as the environment "sky": a white level surface has a luminance of 1.
+/// The sun is 20 degrees high. Light from below never reaches the sea.
 static lobe_result add_light(lobe_scene *scene, const lobe_host *host) {
-    vector3 direction = sun;
-    vector3_normalise(&direction, 0);
-    const daylight light = scenes_daylight_of(direction, TURBIDITY);
-    double ground[3], irradiance[3];
-    scenes_daylight_ground_irradiance(&light, ground);
-    const double factor = M_PI / scenes_daylight_luminance(ground);
-    lobe_environment *sky;
-    lobe_result result = scenes_environment_allocate("low sun", host, &sky);
-    if (result == LOBE_OK)
-        result = lobe_image_allocate(&sky->image, LOBE_FORMAT_RGBA32_FLOAT, 512, 256, host);
-    if (result != LOBE_OK) {
-        lobe_environment_destroy(&sky);
-        return result;
-    }
-    paint(sky, &light, factor);
-    lobe_scene_set_environment(scene, sky);
-    scene->environment_visible = true;
-    for (int i = 0; i < 3; i++)
-        irradiance[i] = factor * light.sun_irradiance[i];
-    return add_sun(scene, irradiance, host);
+    static const daylight_light light = {
+        .name = "low sun", .sun = {0.1288, 0.3420, -0.9308}, .turbidity = 3, .ground = -1};
+    return daylight_light_add(scene, &light, host);
 }
 
 static lobe_result add_view(lobe_scene *scene, const lobe_host *host) {
