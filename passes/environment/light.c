@@ -4,7 +4,9 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/environment/broad_reflection.h"
 #include "passes/environment/directional_albedo.h"
+#include "passes/environment/hemisphere_moments.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
 #include "passes/maps/filtered_maps.h"
@@ -56,6 +58,13 @@ static bool uses_ggx(const filter_context *context) {
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
+/// Whether a material's light is that of a lobe and of moments.
+static bool reflects_broadly(const filter_context *context, const environment_light *light,
+                             const lobe_material *material) {
+    return light->present && light->method == ENVIRONMENT_PREFILTERED &&
+           passes_knob_choice(context, &passes_knob_base) == 0 && passes_reflects_broadly(material);
+}
+
 static lobe_resource albedo_table(lobe_graph *graph, environment_light *light,
                                   lobe_distribution distribution, lobe_distribution masking) {
     lobe_resource *table = &light->albedo[distribution][masking];
@@ -80,6 +89,32 @@ static void build_albedo(const filter_context *context, environment_light *light
         if (context->filter->slopes)
             albedo_table(context->graph, light, LOBE_DISTRIBUTION_BECKMANN,
                          slope_masking(context, distribution));
+    }
+}
+
+static void build_broad_table(const filter_context *context, environment_light *light,
+                              lobe_distribution distribution, lobe_distribution masking) {
+    lobe_resource *table = &light->broad[distribution][masking];
+    if (!table->version)
+        *table = passes_broad_reflection(
+            context->graph, distribution, masking,
+            (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
+}
+
+/// `source`: what the irradiance comes from.
+static void build_broad_reflection(const filter_context *context, environment_light *light,
+                                   irradiance_source source) {
+    const device_scene *scene = context->scene;
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        const lobe_material *material = scene->materials[i].material;
+        if (!scene->materials[i].first_instance || !reflects_broadly(context, light, material))
+            continue;
+        if (!light->moments.version)
+            light->moments = passes_hemisphere_moments(context->graph, source);
+        build_broad_table(context, light, material->distribution, material->distribution);
+        if (context->filter->slopes)
+            build_broad_table(context, light, LOBE_DISTRIBUTION_BECKMANN,
+                              slope_masking(context, material->distribution));
     }
 }
 
@@ -158,6 +193,7 @@ static void build_maps(const filter_context *context, const environment_work *wo
                                        context->graph, source,
                                        passes_knob_value(context, &passes_knob_environment_window))
                                  : no_harmonics(context->graph);
+    build_broad_reflection(context, light, source);
 }
 
 static lobe_result refuse_exact(const filter_context *context, const char *where,
@@ -298,31 +334,44 @@ uint32_t passes_environment_light_lights_at_once(const environment_light *light,
 }
 
 void passes_environment_light_specialise(const environment_light *light,
-                                         specialisation_list *list) {
-    if (light->present)
-        passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
+                                         const filter_context *context,
+                                         const lobe_material *material, specialisation_list *list) {
+    if (!light->present)
+        return;
+    passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
+    passes_specialise(list, SPECIALISE_BROAD_REFLECTION,
+                      reflects_broadly(context, light, material));
 }
 
-static lobe_binding bind_albedo(const char *name, lobe_resource table,
-                                const filter_context *context, const lobe_material *material) {
+/// A table that this material uses, or else white.
+static lobe_binding bind_table(const char *name, lobe_resource table, lobe_sampler sampler,
+                               const filter_context *context, const lobe_material *material) {
     bool used = material->model == LOBE_MATERIAL_MICROFACET && table.version;
     if (!used)
         table = lobe_graph_import_texture(context->graph, context->scene->white);
-    return (lobe_binding){
-        .name = name, .resource = table, .sampler = passes_directional_albedo_sampler};
+    return (lobe_binding){.name = name, .resource = table, .sampler = sampler};
 }
 
-lobe_binding passes_environment_light_albedo(const environment_light *light,
-                                             const filter_context *context,
-                                             const lobe_material *material) {
-    lobe_distribution own = material->distribution;
-    return bind_albedo("directional_albedo_table", light->albedo[own][own], context, material);
-}
-
-lobe_binding passes_environment_light_slope_albedo(const environment_light *light,
-                                                   const filter_context *context,
-                                                   const lobe_material *material) {
-    lobe_distribution masking = slope_masking(context, material->distribution);
-    return bind_albedo("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
-                       context, material);
+size_t
+passes_environment_light_bind_material(const environment_light *light,
+                                       const filter_context *context, const lobe_material *material,
+                                       lobe_binding bindings[ENVIRONMENT_MATERIAL_BINDINGS]) {
+    const lobe_distribution own = material->distribution;
+    const lobe_distribution masking = slope_masking(context, own);
+    size_t count = 0;
+    bindings[count++] = bind_table("directional_albedo_table", light->albedo[own][own],
+                                   passes_directional_albedo_sampler, context, material);
+    bindings[count++] = bind_table("broad_reflection_table", light->broad[own][own],
+                                   passes_broad_reflection_sampler, context, material);
+    bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
+                                   passes_hemisphere_moments_sampler, context, material);
+    if (!context->filter->slopes)
+        return count;
+    bindings[count++] =
+        bind_table("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
+                   passes_directional_albedo_sampler, context, material);
+    bindings[count++] = bind_table("slope_broad_reflection_table",
+                                   light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
+                                   passes_broad_reflection_sampler, context, material);
+    return count;
 }

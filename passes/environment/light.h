@@ -42,6 +42,9 @@ typedef struct environment_light {
     /// Directional albedo by the distribution of microfacets and that of their masking; none where
     /// no material needs it.
     lobe_resource albedo[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];
+    /// What rough microfacets gather of the light, by the same, and the moments that they gather
+    /// with; none where no material does.
+    lobe_resource broad[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT], moments;
 } environment_light;
 
 /// LOBE_ERROR_UNSUPPORTED, with one line, for a method that the filter cannot combine with its
@@ -78,15 +81,17 @@ void passes_environment_light_bind(const environment_light *light, const filter_
 /// How many of `lights` punctual lights the shaders evaluate together.
 uint32_t passes_environment_light_lights_at_once(const environment_light *light, uint32_t lights);
 
-void passes_environment_light_specialise(const environment_light *light, specialisation_list *list);
+void passes_environment_light_specialise(const environment_light *light,
+                                         const filter_context *context,
+                                         const lobe_material *material, specialisation_list *list);
 
-/// Binds the table of directional albedo for a material's draws.
-lobe_binding passes_environment_light_albedo(const environment_light *light,
-                                             const filter_context *context,
-                                             const lobe_material *material);
-/// The same for the slopes that a filter turns its microfacets into.
-lobe_binding passes_environment_light_slope_albedo(const environment_light *light,
-                                                   const filter_context *context,
-                                                   const lobe_material *material);
+/// Most bindings of a material.
+#define ENVIRONMENT_MATERIAL_BINDINGS 5
+
+/// Binds the tables of a material's reflection for its draws; returns how many bindings there are.
+size_t passes_environment_light_bind_material(const environment_light *light,
+                                              const filter_context *context,
+                                              const lobe_material *material,
+                                              lobe_binding bindings[ENVIRONMENT_MATERIAL_BINDINGS]);
 
 #endif

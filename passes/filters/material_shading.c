@@ -34,10 +34,8 @@ size_t passes_material_shading_bind(const filter_context *context, const environ
         .name = "material_block", .resource = lobe_graph_import_buffer(graph, material->constants)};
     passes_material_maps_bind(context, material, bindings + count);
     count += MAP_SHADING;
-    bindings[count++] = passes_environment_light_albedo(light, context, material->material);
-    if (context->filter->slopes)
-        bindings[count++] =
-            passes_environment_light_slope_albedo(light, context, material->material);
+    count += passes_environment_light_bind_material(light, context, material->material,
+                                                    bindings + count);
     for (size_t i = 0; i < appearance->binding_count; i++)
         bindings[count++] = appearance->bindings[i];
     if (passes_waves_are_drawn(context, material))
@@ -51,7 +49,7 @@ void passes_material_shading_specialise(const filter_context *context,
                                         const filtered_appearance *appearance,
                                         specialisation_list *list) {
     passes_material_specialise(material, list);
-    passes_environment_light_specialise(light, list);
+    passes_environment_light_specialise(light, context, material->material, list);
     passes_knobs_specialise(context, list);
     if (passes_waves_are_drawn(context, material))
         passes_waves_specialise(material, list);

@@ -6,7 +6,8 @@
 /// What shading reads of a material with a filter, whoever draws it.
 
 /// Largest number of bindings of a material.
-#define MATERIAL_SHADING_BINDINGS (5 + MAP_SHADING + FILTER_MAXIMUM_BINDINGS)
+#define MATERIAL_SHADING_BINDINGS                                                                  \
+    (3 + ENVIRONMENT_MATERIAL_BINDINGS + MAP_SHADING + FILTER_MAXIMUM_BINDINGS)
 
 /// All maps that shading reads of a material, as they are; white where it has none.
 void passes_material_maps_bind(const filter_context *context, const device_material *material,

@@ -3,6 +3,7 @@
 
 // The environment's maps, and the mean radiance of a lobe of directions by each method.
 
+#include "environment/lobe_row.glsl"
 #include "interface/environment/environment_light.h"
 #include "lib/lobe/direction_lobe.glsl"
 #include "lib/light/environment_level.glsl"
@@ -113,41 +114,26 @@ vec3 prefiltered_radiance(vec3 direction, prefiltered_lobe lobe) {
     return radiance;
 }
 
-// An elongated lobe is approximated by a row of round ones with Gaussian weights: n of them at
-// distances of sqrt(12/(n + 1)) have a variance of one (to 7 %), and overlap without ripple as long
-// as each is at least half as broad as their distance: a row is at most sqrt((n + 4)/3) times as
-// long as broad. This determines how many are needed. If fewer are allowed, the row is broader and
-// shorter than the lobe, with the same sum of variances, which is what a smooth environment shows;
-// but no broader than a single round lobe, because it would collect lamps from beside the lobe.
+// An elongated lobe as a row of round ones.
 vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) {
     direction_lobe lobe = principal_lobe(incoming);
     float major = dot(lobe.first, lobe.first);
     float minor = dot(lobe.second, lobe.second);
-    float wanted = ceil(3.0 * major / max(minor, 1e-3 * major) - 4.0 - 0.5);
-    float count = clamp(wanted, 1.0, float(ENVIRONMENT_PROBES));
-    // Of the row's variances, along it and across.
-    float longest = (count + 4.0) / 3.0;
-    float round_variance = sqrt(major * minor);
-    float variance = count > 1.0
-                         ? max(minor, min((major + minor) / (longest + 1.0), round_variance))
-                         : round_variance;
-    float reach = sqrt(max(min(longest * variance, major) - variance, 0.0) / major) *
-                  sqrt(12.0 / (count + 1.0));
+    lobe_row row = row_of_lobe(major, minor, float(ENVIRONMENT_PROBES));
     float width = float(textureSize(prefiltered_environment, 0).x);
-    float concentration = 1.0 / max(variance, 1e-8);
+    float concentration = 1.0 / max(row.variance, 1e-8);
     prefiltered_lobe levels = levels_of_lobe(kind, width, concentration);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (uint i = 0u; i < uint(count); ++i) {
-        float place = float(i) - 0.5 * (count - 1.0);
-        float weight = exp(-6.0 / (count + 1.0) * place * place);
-        vec3 direction = lobe.axis + place * reach * lobe.first;
-        sum += weight * prefiltered_radiance(to_environment(surface, direction), levels);
-        weights += weight;
+    for (uint i = 0u; i < uint(row.count); ++i) {
+        vec2 place = place_in_row(row, i);
+        vec3 direction = lobe.axis + place.x * row.reach * lobe.first;
+        sum += place.y * prefiltered_radiance(to_environment(surface, direction), levels);
+        weights += place.y;
     }
     // Lobes sharper than the finest level blend towards the unfiltered radiance.
-    float unfiltered = count > 1.0 ? 0.0
-                                   : radiance_share(finest_concentration(kind, width),
+    float unfiltered = row.count > 1.0 ? 0.0
+                                       : radiance_share(finest_concentration(kind, width),
                                                     environment_width(), concentration);
     vec3 radiance = textureLod(environment_cube, to_environment(surface, lobe.axis), 0.0).rgb;
     return mix(sum / weights, radiance, unfiltered);

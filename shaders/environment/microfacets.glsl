@@ -3,6 +3,7 @@
 
 // What microfacets about a normal of their own reflect of the environment.
 
+#include "environment/broad_reflection.glsl"
 #include "environment/irradiance.glsl"
 #include "environment/lobes.glsl"
 #include "lib/microfacet/reflection_lobe.glsl"
@@ -182,7 +183,21 @@ vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, ve
     return reflected * lobe_radiance(surface, lobe, incoming);
 }
 
-// The lobe that is fitted to what microfacets reflect, and light as a Lambert surface gathers it.
+// Roughness that shows the same breadth where the normals vary as well: slopes' variances add up.
+float roughness_with_normals(float roughness, direction_lobe normals) {
+    float alpha = roughness * roughness;
+    return sqrt(sqrt(alpha * alpha + dot(normals.first, normals.first) +
+                     dot(normals.second, normals.second)));
+}
+
+// Of light from above a normal, from even surroundings, what lies below the surface.
+vec3 below_surface(surface_point surface, vec3 normal) {
+    if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL))
+        return vec3(0.0);
+    return (0.5 - 0.5 * normal.z) * mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
+}
+
+// The lobe that is fitted to what microfacets reflect, and light as rough surfaces gather it.
 vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
                     float parameter, bool spread_out) {
     float cosine = dot(normals.axis, surface.outgoing);
@@ -190,11 +205,18 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
         return vec3(0.0);
     float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
     vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
-    reflection_lobe base = lobe_of_reflection(kind == DISTRIBUTION_GGX, cosine, roughness);
+    bool tails = kind == DISTRIBUTION_GGX || (BROAD_REFLECTION && kind == DISTRIBUTION_VMF &&
+                                              DISTRIBUTION == DISTRIBUTION_GGX);
+    reflection_lobe base = lobe_of_reflection(tails, cosine, roughness);
+    vec3 white = f0 * albedo.x + albedo.y;
     vec3 gathered = f0 * (albedo.x * base.diffuse_share);
-    vec3 reflected = specular_albedo(albedo, f0, vec3(1.0)) - gathered;
+    vec3 reflected = white - gathered;
+    vec3 grazing = BROAD_REFLECTION ? vec3(albedo.x * (1.0 - base.diffuse_share) + albedo.y)
+                                    : reflected;
     base = mixed_lobe(base, lobe_of_grazing_reflection(cosine, roughness),
-                      3.0 * albedo.y / max(reflected.r + reflected.g + reflected.b, 1e-10));
+                      3.0 * albedo.y / max(grazing.r + grazing.g + grazing.b, 1e-10));
+    if (BROAD_REFLECTION)
+        base = completed_lobe(base, cosine, roughness);
     direction_lobe own = incoming_lobe(base, normals.axis, surface.outgoing), incoming = own;
     float resultant = 1.0;
     if (spread_out) {
@@ -206,10 +228,23 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     incoming = lobe_above_surface(incoming, own, normals.axis, share);
     if (CLOSED)
         share = 1.0;
-    vec3 sum = share * reflected *
-                   lobe_radiance(surface, half_vector_distribution(normals, kind), incoming) +
-               gathered * irradiance_above(surface, resultant * normals.axis);
-    return scattering_scale(albedo, f0) * sum;
+    vec3 sum;
+    if (BROAD_REFLECTION) {
+        float breadth = spread_out ? roughness_with_normals(roughness, normals) : roughness;
+        broad_part part = broad_reflection(kind, cosine, breadth, 0.0);
+        broad_part part_90 = broad_reflection(kind, cosine, breadth, 1.0);
+        broad_light light = gather_broadly(surface, normals.axis, part, part_90);
+        vec3 below = below_surface(surface, normals.axis);
+        light.f0 -= (1.0 - part.lobe) * below;
+        light.f90 -= (1.0 - part_90.lobe) * below;
+        reflected = f0 * (albedo.x * part.lobe) + albedo.y * part_90.lobe;
+        sum = f0 * (albedo.x * light.f0) + albedo.y * light.f90;
+    } else {
+        sum = gathered * irradiance_above(surface, resultant * normals.axis);
+    }
+    sum += share * reflected *
+           lobe_radiance(surface, half_vector_distribution(normals, kind), incoming);
+    return scattering_scale(albedo, f0) * max(sum, 0.0);
 }
 
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,

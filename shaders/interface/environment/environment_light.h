@@ -29,6 +29,8 @@ INTERFACE_OFFSET(environment_constants, pattern, 56)
 #define SPECIALISE_ENVIRONMENT_BLENDED SPECIALISE(28)
 // bool: light that microfacets reflect more than once is compensated for.
 #define SPECIALISE_MULTIPLE_SCATTERING SPECIALISE(27)
+// bool, of the material: prefiltered light of rough microfacets is a lobe and a polynomial.
+#define SPECIALISE_BROAD_REFLECTION SPECIALISE(39)
 
 #define ENVIRONMENT_EXACT       0
 #define ENVIRONMENT_MIP         1

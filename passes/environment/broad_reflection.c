@@ -1,0 +1,165 @@
+#include "passes/environment/broad_reflection.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "shaders/interface/environment/broad_reflection.h"
+#include "shaders/interface/environment/environment_light.h"
+#include "shaders/interface/specialisation.h"
+
+const lobe_sampler passes_broad_reflection_sampler = {
+    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
+
+bool passes_reflects_broadly(const lobe_material *material) {
+    return material->model == LOBE_MATERIAL_MICROFACET && material->metallic > 0 &&
+           (material->roughness > BROAD_LEAST_ROUGHNESS || material->normal_map.image >= 0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Least squares over spherical harmonics
+
+enum { NODES = 16, ROWS = BROAD_DEGREE + 1 };
+
+/// Gauss and Legendre's nodes and weights on [0, 1], by Newton's method.
+static void legendre_nodes(double nodes[NODES], double weights[NODES]) {
+    for (int i = 0; i < NODES; i++) {
+        double x = cos(M_PI * (i + 0.75) / (NODES + 0.5)), slope = 1;
+        for (int step = 0; step < 8; step++) {
+            double before = 1, current = x;
+            for (int n = 2; n <= NODES; n++) {
+                double next = ((2 * n - 1) * x * current - (n - 1) * before) / n;
+                before = current;
+                current = next;
+            }
+            slope = NODES * (x * current - before) / (x * x - 1);
+            x -= current / slope;
+        }
+        nodes[i] = 0.5 + 0.5 * x;
+        weights[i] = 1 / ((1 - x * x) * slope * slope);
+    }
+}
+
+/// The weight of a degree: environments have less and less light in higher ones. The mean and the
+/// mean direction matter most.
+static double weight_of_degree(int degree) {
+    return degree == 0 ? 100 : degree == 1 ? 10 : 1 / (1 + degree * degree / 9.0);
+}
+
+/// The factor of the harmonic's polynomial in the height, whose leading function of its order is 1.
+static double scale_of_harmonic(int order, int degree) {
+    double square = (2 * degree + 1) / (4 * M_PI) * (order > 0 ? 2 : 1);
+    for (int i = degree - order + 1; i <= degree + order; i++)
+        square /= i;
+    double leading = 1;
+    for (int i = 1; i <= order; i++)
+        leading *= 2 * i - 1;
+    return leading * sqrt(square * weight_of_degree(degree));
+}
+
+/// rows[l - order]: the weighted harmonics of z times z^power times (sin theta)^order cos(order
+/// azimuth) over the hemisphere.
+static void harmonics_of_function(int order, int power, double rows[ROWS]) {
+    double nodes[NODES], weights[NODES];
+    legendre_nodes(nodes, weights);
+    for (int k = 0; k < ROWS; k++)
+        rows[k] = 0;
+    for (int i = 0; i < NODES; i++) {
+        const double z = nodes[i], square = 1 - z * z;
+        double value =
+            weights[i] * pow(z, power + 1) * pow(square, order) * (order > 0 ? M_PI : 2 * M_PI);
+        double before = 0, current = 1;
+        for (int l = order; l <= BROAD_DEGREE; l++) {
+            rows[l - order] += value * current * scale_of_harmonic(order, l);
+            double next = (z * (2 * l + 1) * current - (l + order) * before) / (l + 1 - order);
+            before = current;
+            current = next;
+        }
+    }
+}
+
+/// Solves the symmetric system in place, by Gauss's elimination: `count` unknowns, each with `ROWS`
+/// right sides.
+static void solve(int count, double matrix[BROAD_ORDERS][BROAD_ORDERS],
+                  double right[BROAD_ORDERS][ROWS]) {
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) {
+            if (j == i)
+                continue;
+            const double factor = matrix[j][i] / matrix[i][i];
+            for (int k = 0; k < count; k++)
+                matrix[j][k] -= factor * matrix[i][k];
+            for (int k = 0; k < ROWS; k++)
+                right[j][k] -= factor * right[i][k];
+        }
+    }
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < ROWS; k++)
+            right[i][k] /= matrix[i][i];
+}
+
+static struct broad_harmonics known_harmonics(void) {
+    struct broad_harmonics known = {0};
+    int harmonic = 0, function = 0;
+    for (int order = 0; order < BROAD_ORDERS; order++) {
+        for (int degree = order; degree <= BROAD_DEGREE; degree++)
+            known.scale[harmonic++] = (float)scale_of_harmonic(order, degree);
+        const int count = BROAD_ORDERS - order;
+        double rows[BROAD_ORDERS][ROWS], right[BROAD_ORDERS][ROWS];
+        double products[BROAD_ORDERS][BROAD_ORDERS];
+        for (int i = 0; i < count; i++) {
+            harmonics_of_function(order, i, rows[i]);
+            for (int k = 0; k < ROWS; k++)
+                right[i][k] = rows[i][k];
+        }
+        for (int i = 0; i < count; i++) {
+            for (int j = 0; j < count; j++) {
+                products[i][j] = 0;
+                for (int k = 0; k < ROWS; k++)
+                    products[i][j] += rows[i][k] * rows[j][k];
+            }
+        }
+        solve(count, products, right);
+        for (int i = 0; i < count; i++, function++) {
+            for (int k = 0; k < ROWS; k++) {
+                known.coefficient[12 * function + k] = (float)right[i][k];
+                known.harmonic[12 * function + k] = (float)rows[i][k];
+            }
+        }
+    }
+    return known;
+}
+
+// ---------------------------------------------------------------------------------------------
+// The pass
+
+lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distribution,
+                                      lobe_distribution masking, uint32_t probes) {
+    char name[64];
+    snprintf(name, sizeof name, "broad reflection of distribution %d, masked as %d",
+             (int)distribution, (int)masking);
+    lobe_resource table =
+        lobe_graph_image(graph, &(lobe_image_description){.name = name,
+                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                          .width = BROAD_REFLECTION_SIZE,
+                                                          .height = BROAD_REFLECTION_SIZE,
+                                                          .layers = BROAD_REFLECTION_LAYERS,
+                                                          .retained = true,
+                                                          .shared = true});
+    const struct broad_harmonics known = known_harmonics();
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "broad_reflection");
+    lobe_pass_read(pass, &(lobe_binding){.name = "harmonics_block",
+                                         .resource = lobe_graph_upload(graph, "broad harmonics",
+                                                                       &known, sizeof known)});
+    table = lobe_pass_write(pass, &(lobe_binding){.name = "broad_reflection", .resource = table});
+    const lobe_specialisation specialisation[] = {
+        {SPECIALISE_DISTRIBUTION, (uint32_t)distribution},
+        {SPECIALISE_MASKING, (uint32_t)masking},
+        {SPECIALISE_ENVIRONMENT_PROBES, probes},
+    };
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "environment/broad_reflection.comp",
+                               .threads = {48 * BROAD_REFLECTION_SIZE, BROAD_REFLECTION_SIZE},
+                               .specialisation = specialisation,
+                               .specialisation_count = 3});
+    return table;
+}

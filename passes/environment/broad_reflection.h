@@ -1,0 +1,27 @@
+#ifndef PASSES_ENVIRONMENT_BROAD_REFLECTION_H
+#define PASSES_ENVIRONMENT_BROAD_REFLECTION_H
+
+#include <stdbool.h>
+
+#include <lobe/graph.h>
+#include <lobe/scene.h>
+
+/// How shaders sample the table: linearly, clamped to the edge.
+extern const lobe_sampler passes_broad_reflection_sampler;
+
+/// Whether a material's reflection is so strong and so broad that its shading reads the table:
+/// rough metal, and metal that normals may make so.
+bool passes_reflects_broadly(const lobe_material *material);
+
+/// Adds the pass that tabulates what rough microfacets reflect as a lobe and a polynomial over the
+/// hemisphere: a retained RGBA32_FLOAT image of BROAD_REFLECTION_SIZE squared and
+/// BROAD_REFLECTION_LAYERS layers, over the cosine to the viewer and roughness.
+/// shaders/interface/environment/broad_reflection.h says what it holds,
+/// shaders/environment/broad_reflection.glsl looks it up. `masking` is as in
+/// passes_directional_albedo. `probes` [1, 8]: round lobes that may represent an elongated one. It
+/// depends only on these, so the pass runs only in the first frame. Call it at most once per frame
+/// for each pair of distributions.
+lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distribution,
+                                      lobe_distribution masking, uint32_t probes);
+
+#endif
