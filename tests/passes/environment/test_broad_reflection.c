@@ -150,7 +150,7 @@ static const char *const exact[4] = {"env=exact", "env_size=32"};
 
 static void planes_of_rough_metal_reflect_what_they_should(void **state) {
     // By roughness: every direction, and the mean.
-    static const double each[ROUGHNESSES] = {0.6, 0.35, 0.25, 0.12, 0.05};
+    static const double each[ROUGHNESSES] = {0.6, 0.4, 0.3, 0.12, 0.05};
     static const double mean[ROUGHNESSES] = {0.12, 0.06, 0.04, 0.03, 0.02};
     lobe_scene *scene = scene_begin();
     scene_surround(scene, 64, hazy);
