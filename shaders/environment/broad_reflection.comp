@@ -187,7 +187,7 @@ void main() {
     float diffuse_share = lobe.diffuse_share;
     lobe = mixed_lobe(lobe, lobe_of_grazing_reflection(cosine, roughness),
                       albedo.y / max(albedo.x * (1.0 - diffuse_share) + albedo.y, 1e-10));
-    lobe = completed_lobe(lobe, cosine, roughness);
+    lobe = completed_lobe(lobe, cosine, roughness, 1.0);
     float lobe_left[BROAD_HARMONICS], lobe_functions[BROAD_FUNCTIONS];
     harmonics_of_lobe(lobe, lobe_left);
     float lobe_square = product(lobe_left, lobe_left);

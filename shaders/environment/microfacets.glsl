@@ -197,6 +197,34 @@ vec3 below_surface(surface_point surface, vec3 normal) {
     return (0.5 - 0.5 * normal.z) * mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
 }
 
+// How much of it is found as broad reflection [0, 1]: nothing of dielectrics, whose light is mostly
+// diffuse, nor of narrow lobes.
+float share_of_broad_reflection(vec3 f0, float breadth) {
+    if (!BROAD_REFLECTION || breadth <= BROAD_LEAST_ROUGHNESS)
+        return 0.0;
+    return smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
+}
+
+// What surfaces reflect to where they are seen from: a lobe, and what comes from everywhere.
+struct facing_reflection {
+    vec3 lobe;     // factor of the mean over the lobe
+    vec3 gathered; // radiance
+};
+
+// Replaces the lobe's factor and the light of Lambert's law.
+facing_reflection broad_facing_reflection(surface_point surface, vec3 normal, uint kind, vec3 f0,
+                                          vec4 albedo, float breadth) {
+    float cosine = dot(normal, surface.outgoing);
+    broad_part part = broad_reflection(kind, cosine, breadth, 0.0);
+    broad_part part_90 = broad_reflection(kind, cosine, breadth, 1.0);
+    broad_light light = gather_broadly(surface, normal, part, part_90);
+    vec3 below = below_surface(surface, normal);
+    light.f0 -= (1.0 - part.lobe) * below;
+    light.f90 -= (1.0 - part_90.lobe) * below;
+    return facing_reflection(f0 * (albedo.x * part.lobe) + albedo.y * part_90.lobe,
+                             f0 * (albedo.x * light.f0) + albedo.y * light.f90);
+}
+
 // The lobe that is fitted to what microfacets reflect, and light as rough surfaces gather it.
 vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
                     float parameter, bool spread_out) {
@@ -204,19 +232,21 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     if (cosine <= 0.0)
         return vec3(0.0);
     float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
+    float breadth = spread_out ? roughness_with_normals(roughness, normals) : roughness;
+    float broad = share_of_broad_reflection(f0, breadth);
     vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
-    bool tails = kind == DISTRIBUTION_GGX || (BROAD_REFLECTION && kind == DISTRIBUTION_VMF &&
-                                              DISTRIBUTION == DISTRIBUTION_GGX);
+    bool tails = kind == DISTRIBUTION_GGX ||
+                 (BROAD_REFLECTION && kind == DISTRIBUTION_VMF && DISTRIBUTION == DISTRIBUTION_GGX);
     reflection_lobe base = lobe_of_reflection(tails, cosine, roughness);
-    vec3 white = f0 * albedo.x + albedo.y;
-    vec3 gathered = f0 * (albedo.x * base.diffuse_share);
-    vec3 reflected = white - gathered;
-    vec3 grazing = BROAD_REFLECTION ? vec3(albedo.x * (1.0 - base.diffuse_share) + albedo.y)
-                                    : reflected;
+    const float diffuse_share = base.diffuse_share;
+    facing_reflection reflection;
+    reflection.lobe = f0 * (albedo.x * (1.0 - diffuse_share)) + albedo.y;
+    // All colours of broad reflection share one lobe.
+    vec3 mixed = mix(reflection.lobe, vec3(albedo.x * (1.0 - diffuse_share) + albedo.y), broad);
     base = mixed_lobe(base, lobe_of_grazing_reflection(cosine, roughness),
-                      3.0 * albedo.y / max(grazing.r + grazing.g + grazing.b, 1e-10));
-    if (BROAD_REFLECTION)
-        base = completed_lobe(base, cosine, roughness);
+                      3.0 * albedo.y / max(mixed.r + mixed.g + mixed.b, 1e-10));
+    if (broad > 0.0)
+        base = completed_lobe(base, cosine, roughness, broad);
     direction_lobe own = incoming_lobe(base, normals.axis, surface.outgoing), incoming = own;
     float resultant = 1.0;
     if (spread_out) {
@@ -228,22 +258,18 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     incoming = lobe_above_surface(incoming, own, normals.axis, share);
     if (CLOSED)
         share = 1.0;
-    vec3 sum;
-    if (BROAD_REFLECTION) {
-        float breadth = spread_out ? roughness_with_normals(roughness, normals) : roughness;
-        broad_part part = broad_reflection(kind, cosine, breadth, 0.0);
-        broad_part part_90 = broad_reflection(kind, cosine, breadth, 1.0);
-        broad_light light = gather_broadly(surface, normals.axis, part, part_90);
-        vec3 below = below_surface(surface, normals.axis);
-        light.f0 -= (1.0 - part.lobe) * below;
-        light.f90 -= (1.0 - part_90.lobe) * below;
-        reflected = f0 * (albedo.x * part.lobe) + albedo.y * part_90.lobe;
-        sum = f0 * (albedo.x * light.f0) + albedo.y * light.f90;
-    } else {
-        sum = gathered * irradiance_above(surface, resultant * normals.axis);
+    reflection.gathered = broad < 1.0 ? f0 * (albedo.x * diffuse_share) *
+                                            irradiance_above(surface, resultant * normals.axis)
+                                      : vec3(0.0);
+    if (broad > 0.0) {
+        facing_reflection other =
+            broad_facing_reflection(surface, normals.axis, kind, f0, albedo, breadth);
+        reflection.lobe = mix(reflection.lobe, other.lobe, broad);
+        reflection.gathered = mix(reflection.gathered, other.gathered, broad);
     }
-    sum += share * reflected *
-           lobe_radiance(surface, half_vector_distribution(normals, kind), incoming);
+    vec3 sum = reflection.gathered +
+               share * reflection.lobe *
+                   lobe_radiance(surface, half_vector_distribution(normals, kind), incoming);
     return scattering_scale(albedo, f0) * max(sum, 0.0);
 }
 

@@ -3,9 +3,9 @@
 
 #include "../types.h"
 
-// What rough microfacets reflect, as a lobe and, for the part of F_0 and that of F_90 each, a sum of
-// ten functions of the incoming direction in the plane of reflection: x towards the viewer's side,
-// z along the normal. Each is z, the cosine of incidence, times
+// What rough microfacets reflect, as a lobe and, for the part of F_0 and that of F_90 each, a sum
+// of ten functions of the incoming direction in the plane of reflection: x towards the viewer's
+// side, z along the normal. Each is z, the cosine of incidence, times
 //   1, z, z^2, z^3;  x, x z, x z^2;  x^2 - y^2, (x^2 - y^2) z;  x^3 - 3 x y^2,
 // by order m of their dependence on the azimuth, cos(m azimuth).
 #define BROAD_FUNCTIONS 10
@@ -21,6 +21,9 @@
 // BROAD_FULL_ROUGHNESS on, what is said here.
 #define BROAD_LEAST_ROUGHNESS 0.4f
 #define BROAD_FULL_ROUGHNESS  0.55f
+// Of dielectrics nothing is found in this way, from BROAD_FULL_F0 on all.
+#define BROAD_LEAST_F0 0.05f
+#define BROAD_FULL_F0  0.1f
 
 // Spherical harmonics up to this degree, of orders 0 to 3 in cos(m azimuth), by order and degree:
 // their least squares determine the coefficients.

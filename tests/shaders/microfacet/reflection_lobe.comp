@@ -13,13 +13,15 @@ reflection_lobe lobe_of(vec4 numbers) {
 }
 
 // GGX (1) or not: a.x; the cosine to the viewer: a.y; roughness: a.z. Or two lobes: a, b; the share
-// of the second: c.x.
+// of the second: c.x. Or a lobe: a; the cosine to the viewer, roughness, how far completed: b.xyz.
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     switch (FUNCTION) {
     case 0:
         return numbers_of(lobe_of_reflection(a.x > 0.5, a.y, a.z));
     case 1:
         return numbers_of(lobe_of_grazing_reflection(a.y, a.z));
+    case 3:
+        return numbers_of(completed_lobe(lobe_of(a), b.x, b.y, b.z));
     default:
         return numbers_of(mixed_lobe(lobe_of(a), lobe_of(b), c.x));
     }

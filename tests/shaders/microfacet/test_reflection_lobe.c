@@ -14,7 +14,7 @@
 #include "tests/shaders/support/samples.h"
 
 static const char shader[] = "microfacet/reflection_lobe.comp";
-enum { F0, F90, MIXED };
+enum { F0, F90, MIXED, COMPLETED };
 enum { ANGLE, ALONG, ACROSS, SHARE };
 
 static const double cosines[] = {1, 0.95, 0.8, 0.6, 0.45, 0.3};
@@ -131,12 +131,40 @@ static void mixtures_keep_mean_and_variance(void **state) {
     }
 }
 
+/// Only rough surfaces', and towards the horizon only where they are not seen from above.
+static void completed_lobes_are_narrower_and_lower(void **state) {
+    uint64_t random = 67;
+    for (size_t i = 0; i < COUNT; i++) {
+        const double cosine = cosines[i % COSINES], roughness = roughnesses[i / COSINES];
+        for (int k = 0; k < 4; k++)
+            arguments[i].a[k] = (float)scenes_random_between(&random, 0.1, 1.2);
+        arguments[i].b[0] = (float)cosine;
+        arguments[i].b[1] = (float)roughness;
+        arguments[i].b[2] = i % 3 == 0 ? 0 : i % 3 == 1 ? 0.5f : 1;
+    }
+    harness_evaluate(state, shader, COMPLETED, arguments, COUNT, results);
+    for (size_t i = 0; i < COUNT; i++) {
+        const float *lobe = arguments[i].a, *found = results[i].value;
+        double t = fmin(fmax(((double)arguments[i].b[1] - 0.4) / 0.2, 0), 1);
+        double part = t * t * (3 - 2 * t) * (double)arguments[i].b[2];
+        double sine = sqrt(1 - pow(arguments[i].b[0], 2));
+        check_close("angle", &arguments[i], found[ANGLE],
+                    fmin((double)lobe[ANGLE] + 0.16 * part * sine, 1.5), 1e-5);
+        check_close("along", &arguments[i], found[ALONG], (double)lobe[ALONG] * (1 - 0.3 * part),
+                    1e-6);
+        check_close("across", &arguments[i], found[ACROSS], (double)lobe[ACROSS] * (1 - 0.3 * part),
+                    1e-6);
+        check_close("share", &arguments[i], found[SHARE], lobe[SHARE], 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_comes_from_where_it_should),
         cmocka_unit_test(grazing_light_comes_from_near_the_horizon),
         cmocka_unit_test(narrow_lobes_are_about_the_mirror),
         cmocka_unit_test(mixtures_keep_mean_and_variance),
+        cmocka_unit_test(completed_lobes_are_narrower_and_lower),
     };
     return cmocka_run_group_tests_name("reflection_lobe", tests, harness_set_up, harness_tear_down);
 }
