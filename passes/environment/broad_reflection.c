@@ -97,6 +97,23 @@ static void solve(int count, double matrix[BROAD_ORDERS][BROAD_ORDERS],
             right[i][k] /= matrix[i][i];
 }
 
+/// What the harmonics of an order contribute to the coefficients of its functions, where `ridge`
+/// times the squares of these is added to the squared error.
+static void fit_order(int count, double rows[BROAD_ORDERS][ROWS], double ridge,
+                      double right[BROAD_ORDERS][ROWS]) {
+    double products[BROAD_ORDERS][BROAD_ORDERS];
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; k < ROWS; k++)
+            right[i][k] = rows[i][k];
+        for (int j = 0; j < count; j++) {
+            products[i][j] = i == j ? ridge : 0;
+            for (int k = 0; k < ROWS; k++)
+                products[i][j] += rows[i][k] * rows[j][k];
+        }
+    }
+    solve(count, products, right);
+}
+
 static struct broad_harmonics known_harmonics(void) {
     struct broad_harmonics known = {0};
     int harmonic = 0, function = 0;
@@ -104,24 +121,15 @@ static struct broad_harmonics known_harmonics(void) {
         for (int degree = order; degree <= BROAD_DEGREE; degree++)
             known.scale[harmonic++] = (float)scale_of_harmonic(order, degree);
         const int count = BROAD_ORDERS - order;
-        double rows[BROAD_ORDERS][ROWS], right[BROAD_ORDERS][ROWS];
-        double products[BROAD_ORDERS][BROAD_ORDERS];
-        for (int i = 0; i < count; i++) {
+        double rows[BROAD_ORDERS][ROWS], free[BROAD_ORDERS][ROWS], held[BROAD_ORDERS][ROWS];
+        for (int i = 0; i < count; i++)
             harmonics_of_function(order, i, rows[i]);
-            for (int k = 0; k < ROWS; k++)
-                right[i][k] = rows[i][k];
-        }
-        for (int i = 0; i < count; i++) {
-            for (int j = 0; j < count; j++) {
-                products[i][j] = 0;
-                for (int k = 0; k < ROWS; k++)
-                    products[i][j] += rows[i][k] * rows[j][k];
-            }
-        }
-        solve(count, products, right);
+        fit_order(count, rows, 0, free);
+        fit_order(count, rows, BROAD_RIDGE, held);
         for (int i = 0; i < count; i++, function++) {
             for (int k = 0; k < ROWS; k++) {
-                known.coefficient[12 * function + k] = (float)right[i][k];
+                known.coefficient[0][12 * function + k] = (float)free[i][k];
+                known.coefficient[1][12 * function + k] = (float)held[i][k];
                 known.harmonic[12 * function + k] = (float)rows[i][k];
             }
         }

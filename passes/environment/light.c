@@ -358,20 +358,24 @@ passes_environment_light_bind_material(const environment_light *light,
                                        lobe_binding bindings[ENVIRONMENT_MATERIAL_BINDINGS]) {
     const lobe_distribution own = material->distribution;
     const lobe_distribution masking = slope_masking(context, own);
+    const bool slopes = context->filter->slopes;
     size_t count = 0;
     bindings[count++] = bind_table("directional_albedo_table", light->albedo[own][own],
                                    passes_directional_albedo_sampler, context, material);
+    if (slopes)
+        bindings[count++] =
+            bind_table("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
+                       passes_directional_albedo_sampler, context, material);
+    // Shaders for scenes without an environment have no such tables.
+    if (!light->present)
+        return count;
     bindings[count++] = bind_table("broad_reflection_table", light->broad[own][own],
                                    passes_broad_reflection_sampler, context, material);
     bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
                                    passes_hemisphere_moments_sampler, context, material);
-    if (!context->filter->slopes)
-        return count;
-    bindings[count++] =
-        bind_table("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
-                   passes_directional_albedo_sampler, context, material);
-    bindings[count++] = bind_table("slope_broad_reflection_table",
-                                   light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
-                                   passes_broad_reflection_sampler, context, material);
+    if (slopes)
+        bindings[count++] = bind_table("slope_broad_reflection_table",
+                                       light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
+                                       passes_broad_reflection_sampler, context, material);
     return count;
 }

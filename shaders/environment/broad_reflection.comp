@@ -67,12 +67,49 @@ void factors_of_lobe(float concentration, out float factors[BROAD_DEGREE + 1]) {
         factors[l] /= current;
 }
 
+// The same of a lobe proportional to GGX's D(theta/2) with alpha^2 = 1/(2 kappa), (1 + b x)^-2 of
+// x = 1 - cos theta with b = kappa - 1/2: by the midpoint rule on log(1 + b x).
+void factors_of_ggx_lobe(float concentration, out float factors[BROAD_DEGREE + 1]) {
+    const int POINTS = 64;
+    float b = max(concentration - 0.5, 1e-3), whole = log(1.0 + 2.0 * b);
+    for (int l = 0; l <= BROAD_DEGREE; ++l)
+        factors[l] = 0.0;
+    for (int i = 0; i < POINTS; ++i) {
+        float inverse = exp(-whole * (float(i) + 0.5) / float(POINTS)); // 1/(1 + b x)
+        float cosine = 1.0 - (1.0 / inverse - 1.0) / b;
+        float before = 0.0, current = 1.0;
+        for (int l = 0; l <= BROAD_DEGREE; ++l) {
+            factors[l] += inverse * current;
+            float next = (float(2 * l + 1) * cosine * current - float(l) * before) / float(l + 1);
+            before = current;
+            current = next;
+        }
+    }
+    for (int l = BROAD_DEGREE; l >= 0; --l)
+        factors[l] /= factors[0];
+}
+
+// How much of a round lobe is read from the cube of GGX lobes: share_of_tails() of
+// environment/environment.glsl.
+float share_of_ggx(float concentration) {
+    return DISTRIBUTION == DISTRIBUTION_GGX
+               ? 1.0 - smoothstep(0.1, 0.17, inversesqrt(2.0 * concentration))
+               : 0.0;
+}
+
 // Of the row of lobes that filtered environments are read with, of area one.
 void harmonics_of_lobe(reflection_lobe lobe, out float values[BROAD_HARMONICS]) {
     float along = lobe.along * lobe.along, across = lobe.across * lobe.across;
     lobe_row row = row_of_lobe(max(along, across), min(along, across), float(ENVIRONMENT_PROBES));
     float factors[BROAD_DEGREE + 1];
-    factors_of_lobe(1.0 / max(row.variance, 1e-6), factors);
+    float concentration = 1.0 / max(row.variance, 1e-6), tails = share_of_ggx(concentration);
+    factors_of_lobe(concentration, factors);
+    if (tails > 0.0) {
+        float factors_of_tails[BROAD_DEGREE + 1];
+        factors_of_ggx_lobe(concentration, factors_of_tails);
+        for (int l = 0; l <= BROAD_DEGREE; ++l)
+            factors[l] = mix(factors[l], factors_of_tails[l], tails);
+    }
     for (int k = 0; k < BROAD_HARMONICS; ++k)
         values[k] = 0.0;
     float weights = 0.0;
@@ -95,15 +132,18 @@ void harmonics_of_lobe(reflection_lobe lobe, out float values[BROAD_HARMONICS]) 
 }
 
 // The coefficients of the functions that are nearest to harmonics in least squares, and what is
-// left of these.
-void fit_functions(inout float values[BROAD_HARMONICS], out float coefficients[BROAD_FUNCTIONS]) {
+// left of these. `free`: how little a ridge keeps them small [0, 1].
+void fit_functions(float free, inout float values[BROAD_HARMONICS],
+                   out float coefficients[BROAD_FUNCTIONS]) {
     int first = 0, j = 0;
     for (int m = 0; m < BROAD_ORDERS; ++m) {
         int count = BROAD_DEGREE + 1 - m, functions = BROAD_ORDERS - m;
         for (int i = 0; i < functions; ++i) {
             float sum = 0.0;
             for (int k = 0; k < count; ++k)
-                sum += known.coefficient[12 * (j + i) + k] * values[first + k];
+                sum += mix(known.coefficient[1][12 * (j + i) + k],
+                           known.coefficient[0][12 * (j + i) + k], free) *
+                       values[first + k];
             coefficients[j + i] = sum;
         }
         for (int i = 0; i < functions; ++i)
@@ -131,11 +171,11 @@ float total_of(float coefficients[BROAD_FUNCTIONS]) {
 // coefficients `lobe_functions`. `smooth_share`: of light as a Lambert surface gathers it.
 void store_part(int part, ivec2 texel, float albedo, float lobe_left[BROAD_HARMONICS],
                 float lobe_functions[BROAD_FUNCTIONS], float lobe_square, float diffuse_share,
-                float full) {
+                float full, float free) {
     float values[BROAD_HARMONICS], coefficients[BROAD_FUNCTIONS];
     for (int k = 0; k < BROAD_HARMONICS; ++k)
         values[k] = reflected[k][part] / max(albedo, 1e-10);
-    fit_functions(values, coefficients);
+    fit_functions(free, values, coefficients);
     float weight = product(values, lobe_left) / (product(lobe_left, lobe_left) + 1e-4 * lobe_square);
     weight = clamp(weight, 0.0, 1.5);
     for (int j = 0; j < BROAD_FUNCTIONS; ++j)
@@ -190,9 +230,12 @@ void main() {
     lobe = completed_lobe(lobe, cosine, roughness, 1.0);
     float lobe_left[BROAD_HARMONICS], lobe_functions[BROAD_FUNCTIONS];
     harmonics_of_lobe(lobe, lobe_left);
+    float free =
+        smoothstep(BROAD_LEAST_FREE_ROUGHNESS, BROAD_ENTIRELY_FREE_ROUGHNESS, roughness);
     float lobe_square = product(lobe_left, lobe_left);
-    fit_functions(lobe_left, lobe_functions);
+    fit_functions(free, lobe_left, lobe_functions);
     float full = smoothstep(BROAD_LEAST_ROUGHNESS, BROAD_FULL_ROUGHNESS, roughness);
-    store_part(0, texel, albedo.x, lobe_left, lobe_functions, lobe_square, diffuse_share, full);
-    store_part(1, texel, albedo.y, lobe_left, lobe_functions, lobe_square, 0.0, full);
+    store_part(0, texel, albedo.x, lobe_left, lobe_functions, lobe_square, diffuse_share, full,
+               free);
+    store_part(1, texel, albedo.y, lobe_left, lobe_functions, lobe_square, 0.0, full, free);
 }

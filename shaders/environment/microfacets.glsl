@@ -183,24 +183,17 @@ vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, ve
     return reflected * lobe_radiance(surface, lobe, incoming);
 }
 
-// Roughness that shows the same breadth where the normals vary as well: slopes' variances add up.
-float roughness_with_normals(float roughness, direction_lobe normals) {
-    float alpha = roughness * roughness;
-    return sqrt(sqrt(alpha * alpha + dot(normals.first, normals.first) +
-                     dot(normals.second, normals.second)));
-}
-
 // Of light from above a normal, from even surroundings, what lies below the surface.
 vec3 below_surface(surface_point surface, vec3 normal) {
-    if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL))
+    if (HORIZON == HORIZON_IGNORED || CLOSED || !has_map(MAP_NORMAL))
         return vec3(0.0);
     return (0.5 - 0.5 * normal.z) * mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
 }
 
 // How much of it is found as broad reflection [0, 1]: nothing of dielectrics, whose light is mostly
 // diffuse, nor of narrow lobes.
-float share_of_broad_reflection(vec3 f0, float breadth) {
-    if (!BROAD_REFLECTION || breadth <= BROAD_LEAST_ROUGHNESS)
+float share_of_broad_reflection(vec3 f0, float roughness) {
+    if (!BROAD_REFLECTION || roughness <= BROAD_LEAST_ROUGHNESS)
         return 0.0;
     return smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
 }
@@ -213,10 +206,10 @@ struct facing_reflection {
 
 // Replaces the lobe's factor and the light of Lambert's law.
 facing_reflection broad_facing_reflection(surface_point surface, vec3 normal, uint kind, vec3 f0,
-                                          vec4 albedo, float breadth) {
+                                          vec4 albedo, float roughness) {
     float cosine = dot(normal, surface.outgoing);
-    broad_part part = broad_reflection(kind, cosine, breadth, 0.0);
-    broad_part part_90 = broad_reflection(kind, cosine, breadth, 1.0);
+    broad_part part = broad_reflection(kind, cosine, roughness, 0.0);
+    broad_part part_90 = broad_reflection(kind, cosine, roughness, 1.0);
     broad_light light = gather_broadly(surface, normal, part, part_90);
     vec3 below = below_surface(surface, normal);
     light.f0 -= (1.0 - part.lobe) * below;
@@ -232,8 +225,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     if (cosine <= 0.0)
         return vec3(0.0);
     float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
-    float breadth = spread_out ? roughness_with_normals(roughness, normals) : roughness;
-    float broad = share_of_broad_reflection(f0, breadth);
+    float broad = share_of_broad_reflection(f0, roughness);
     vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
     bool tails = kind == DISTRIBUTION_GGX ||
                  (BROAD_REFLECTION && kind == DISTRIBUTION_VMF && DISTRIBUTION == DISTRIBUTION_GGX);
@@ -263,7 +255,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
                                       : vec3(0.0);
     if (broad > 0.0) {
         facing_reflection other =
-            broad_facing_reflection(surface, normals.axis, kind, f0, albedo, breadth);
+            broad_facing_reflection(surface, normals.axis, kind, f0, albedo, roughness);
         reflection.lobe = mix(reflection.lobe, other.lobe, broad);
         reflection.gathered = mix(reflection.gathered, other.gathered, broad);
     }
