@@ -30,8 +30,8 @@
 #define BROAD_DEGREE    8
 #define BROAD_HARMONICS 30 // 9 + 8 + 7 + 6
 
-// Functions cannot show what is left of narrow lobes: below the greater roughness their coefficients
-// are kept small, by a ridge that is added to the squared error.
+// Functions cannot show what narrow lobes leave: below the greater roughness their coefficients are
+// kept small, by a ridge that is added to the squared error.
 #define BROAD_RIDGE                   0.03f
 #define BROAD_LEAST_FREE_ROUGHNESS    0.6f
 #define BROAD_ENTIRELY_FREE_ROUGHNESS 0.8f
