@@ -176,7 +176,8 @@ void store_part(int part, ivec2 texel, float albedo, float lobe_left[BROAD_HARMO
     for (int k = 0; k < BROAD_HARMONICS; ++k)
         values[k] = reflected[k][part] / max(albedo, 1e-10);
     fit_functions(free, values, coefficients);
-    float weight = product(values, lobe_left) / (product(lobe_left, lobe_left) + 1e-4 * lobe_square);
+    float weight =
+        product(values, lobe_left) / (product(lobe_left, lobe_left) + 1e-4 * lobe_square);
     weight = clamp(weight, 0.0, 1.5);
     for (int j = 0; j < BROAD_FUNCTIONS; ++j)
         coefficients[j] -= weight * lobe_functions[j];

@@ -1,7 +1,8 @@
 #ifndef ENVIRONMENT_REFLECTED_RINGS_GLSL
 #define ENVIRONMENT_REFLECTED_RINGS_GLSL
 
-// Quadrature over what microfacets reflect towards a viewer: rings of half vectors about the normal.
+// Quadrature over what microfacets reflect towards a viewer: rings of half vectors about the
+// normal.
 
 #include "lib/lobe/base_lobe.glsl"
 #include "lib/microfacet/microfacet.glsl"
