@@ -191,11 +191,14 @@ vec3 below_surface(surface_point surface, vec3 normal) {
 }
 
 // How much of it is found as broad reflection [0, 1]: nothing of dielectrics, whose light is mostly
-// diffuse, nor of narrow lobes.
-float share_of_broad_reflection(vec3 f0, float roughness) {
+// diffuse, nor of narrow lobes, nor where normals vary more than microfacets do, for a polynomial
+// about their mean ends at none of their horizons.
+float share_of_broad_reflection(vec3 f0, float roughness, float variance_of_normals) {
     if (!BROAD_REFLECTION || roughness <= BROAD_LEAST_ROUGHNESS)
         return 0.0;
-    return smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
+    float alpha = roughness * roughness;
+    float even = 1.0 - smoothstep(0.05, 0.3, variance_of_normals / (alpha * alpha));
+    return even * smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
 }
 
 // What surfaces reflect to where they are seen from: a lobe, and what comes from everywhere.
@@ -225,7 +228,10 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     if (cosine <= 0.0)
         return vec3(0.0);
     float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
-    float broad = share_of_broad_reflection(f0, roughness);
+    float variance = spread_out ? dot(normals.first, normals.first) +
+                                      dot(normals.second, normals.second)
+                                : 0.0;
+    float broad = share_of_broad_reflection(f0, roughness, variance);
     vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
     bool tails = kind == DISTRIBUTION_GGX ||
                  (BROAD_REFLECTION && kind == DISTRIBUTION_VMF && DISTRIBUTION == DISTRIBUTION_GGX);
