@@ -147,6 +147,16 @@ void gather_channel(uint channel, float viewer[16], float functions[ORDER]) {
     drawn.colour[channel] = entry(first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
 }
 
+void fill_hidden(float seen, float viewer[16]) {
+    float mean = max(product_with(closure.visible, viewer), 1e-6);
+    float lacking = max(LEAST_VISIBLE - max(seen / mean, 0.0), 0.0);
+    if (lacking == 0.0)
+        return;
+    for (uint channel = 0u; channel < CHANNELS; ++channel)
+        drawn.direct[channel][0] += lacking * drawn.viewer.z * INVERSE_PI * TRANSFER_COSINE *
+                                    (COLOURED ? drawn.colour[channel] : 1.0);
+}
+
 void gather_relief(surface_point surface) {
     drawn.viewer = viewer_of(surface);
     fetch_transfer(transfer_area(surface));
@@ -164,6 +174,7 @@ void gather_relief(surface_point surface) {
     if (!COLOURED)
         close(viewer);
     drawn.visible = relative_area(seen, viewer);
+    fill_hidden(seen, viewer);
     if (has_facets())
         in_polynomials(area, drawn.area);
 }

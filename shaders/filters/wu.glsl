@@ -301,7 +301,10 @@ void gather_cells(appearance fetched, surface_point surface, float width) {
         if (rest > 0.0)
             add_level(level - 1u, centre, rest, surface, width);
     }
-    drawn.visible = max(drawn.visible, LEAST_VISIBLE * drawn.viewer.z);
+    float lacking = max(LEAST_VISIBLE * drawn.viewer.z - drawn.visible, 0.0);
+    drawn.visible += lacking;
+    for (int k = 0; k < drawn.lights; ++k)
+        drawn.direct[k] += lacking * INVERSE_PI * drawn.towards[k].z;
 }
 
 // Radiance of diffuse facets for irradiance 1 of a light. `mirrored`: the part of light that facets

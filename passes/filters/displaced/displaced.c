@@ -10,6 +10,7 @@
 #include "passes/upload/material_maps.h"
 
 static const char *const orders[] = {"4", "6", "9", NULL};
+static const char *const azimuths[] = {"4", "8", "16", "32", "64", NULL};
 static const char *const storages[] = {"float16", "float32", NULL};
 
 static const filter_knob order_knob = {
@@ -26,10 +27,10 @@ static const filter_knob order_knob = {
 static const filter_knob azimuths_knob = {
     .description = {.name = "azimuths",
                     .summary = "directions in which each facet's horizon is found",
-                    .kind = LOBE_KNOB_INTEGER,
-                    .minimum = 4,
-                    .maximum = 64,
-                    .initial = 16},
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 4,
+                    .initial = 2,
+                    .choices = azimuths},
     .decides_slots = true,
 };
 static const filter_knob bounces_knob = {
@@ -38,7 +39,7 @@ static const filter_knob bounces_knob = {
                                "evenly, so that no light is lost",
                     .kind = LOBE_KNOB_INTEGER,
                     .minimum = 1,
-                    .maximum = 32,
+                    .maximum = 16,
                     .initial = 8},
     .decides_slots = true,
 };
@@ -72,7 +73,7 @@ static uint32_t order_of(const filter_context *context) {
 static transfer_kind kind_of(const filter_context *context, const device_material *material) {
     return (transfer_kind){
         .order = order_of(context),
-        .azimuths = (uint32_t)passes_knob_value(context, &azimuths_knob),
+        .azimuths = 4u << (uint32_t)passes_knob_choice(context, &azimuths_knob),
         .bounces = (uint32_t)passes_knob_value(context, &bounces_knob),
         .format = passes_knob_choice(context, &transfer_storage_knob) == 0
                       ? LOBE_FORMAT_RGBA16_FLOAT
