@@ -7,6 +7,7 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
+#include "tools/scenes/keyed_animation.h"
 
 // Canvas on a pole at x = 0. Two waves run along it; each is the sum of two morph targets, its
 // cosine and its sine, whose weights turn with time. Gusts stretch the whole flag.
@@ -127,23 +128,9 @@ static lobe_result add_cloth(lobe_scene *scene, const lobe_host *host) {
 // ---------------------------------------------------------------------------------------------
 // Wind
 
-static bool allocate_channel(lobe_animation_channel *channel, lobe_channel_path path, size_t width,
-                             const lobe_allocator *allocator) {
-    *channel = (lobe_animation_channel){
-        .path = path,
-        .interpolation = LOBE_INTERPOLATION_LINEAR,
-        .times = lobe_allocate(allocator, KEYS, sizeof *channel->times),
-        .key_count = KEYS,
-        .width = width,
-        .values = lobe_allocate(allocator, KEYS * width, sizeof *channel->values),
-    };
-    return channel->times && channel->values;
-}
-
 static void fill_keys(lobe_animation_channel *wind, lobe_animation_channel *gusts) {
     for (size_t i = 0; i < KEYS; i++) {
         const double turn = 2 * M_PI * (double)i / (KEYS - 1);
-        wind->times[i] = gusts->times[i] = (float)(PERIOD * (double)i / (KEYS - 1));
         for (size_t k = 0; k < TARGETS; k++) {
             const double angle = waves[k / 2].turns * turn;
             wind->values[TARGETS * i + k] = (float)(k % 2 == 0 ? cos(angle) : sin(angle));
@@ -154,23 +141,12 @@ static void fill_keys(lobe_animation_channel *wind, lobe_animation_channel *gust
 }
 
 static bool add_animation(lobe_rig *rig, const lobe_allocator *allocator) {
-    lobe_animation *animation = rig->animations =
-        lobe_allocate(allocator, 1, sizeof *rig->animations);
-    if (!animation)
+    static const keyed_channel channels[] = {{LOBE_CHANNEL_WEIGHTS, TARGETS},
+                                             {LOBE_CHANNEL_SCALE, 3}};
+    if (!keyed_animation_add(rig, "wind", PERIOD, KEYS, channels, 2, allocator))
         return false;
-    rig->animation_count = 1;
-    animation->name = lobe_copy_text(allocator, "wind");
-    animation->channels = lobe_allocate(allocator, 2, sizeof *animation->channels);
-    animation->duration = PERIOD;
-    if (!animation->name || !animation->channels)
-        return false;
-    animation->channel_count = 2;
-    const bool done =
-        allocate_channel(&animation->channels[0], LOBE_CHANNEL_WEIGHTS, TARGETS, allocator) &&
-        allocate_channel(&animation->channels[1], LOBE_CHANNEL_SCALE, 3, allocator);
-    if (done)
-        fill_keys(&animation->channels[0], &animation->channels[1]);
-    return done;
+    fill_keys(&rig->animations[0].channels[0], &rig->animations[0].channels[1]);
+    return true;
 }
 
 static bool add_node(lobe_rig *rig, const lobe_allocator *allocator) {

@@ -4,10 +4,9 @@
 #include <string.h>
 
 #include "scenes/builtin/assembly.h"
-#include "scenes/mesh/mesh.h"
-#include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
 #include "tools/scenes/outdoors/daylight_light.h"
+#include "tools/scenes/outdoors/wide_grid.h"
 
 void ocean_scene_sea(lobe_ocean_parameters *sea) {
     lobe_ocean_default(sea);
@@ -44,33 +43,11 @@ static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     return scenes_add_material(scene, "water", &material, host, NULL);
 }
 
-enum { CELLS = 128 };
-
-/// Metres from the middle of the sea for each row and column: a third of a metre from one to the
-/// next there, 40 km in all, so that coordinates that are interpolated near the eye are exact.
-static float line_of_grid(uint32_t index) {
-    return (float)(2 * sinh(10.6 * (2.0 * index / CELLS - 1)));
-}
-
+/// A third of a metre from one row to the next in the middle, and 40 km in all.
 static lobe_result add_plane(lobe_scene *scene, const lobe_host *host) {
-    lobe_mesh mesh;
-    lobe_result result = scenes_mesh_allocate(&mesh, "sea", (CELLS + 1) * (CELLS + 1),
-                                              (size_t)CELLS * CELLS * 6, host);
-    if (result != LOBE_OK)
-        return result;
-    mesh.has_texture_coordinates[0] = true;
-    for (uint32_t row = 0; row <= CELLS; row++)
-        for (uint32_t column = 0; column <= CELLS; column++) {
-            const float x = line_of_grid(column), z = line_of_grid(row);
-            mesh.vertices[row * (CELLS + 1) + column] =
-                (lobe_scene_vertex){.position = {x, 0, z},
-                                    .normal = {0, 1, 0},
-                                    .tangent = {1, 0, 0, 1},
-                                    .texture_coordinates = {{x, z}},
-                                    .colour = {1, 1, 1, 1}};
-        }
-    scenes_shape_grid_indices(CELLS, CELLS, mesh.indices);
-    return scenes_place_mesh(scene, &mesh, 0, host);
+    static const wide_grid sea = {
+        .name = "sea", .cells = 128, .width = 2, .growth = 10.6, .tile = 1};
+    return wide_grid_add(scene, &sea, host);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -4,16 +4,16 @@
 #include <string.h>
 
 #include "scenes/builtin/assembly.h"
-#include "scenes/mesh/mesh.h"
-#include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
+#include "tools/scenes/keyed_animation.h"
 #include "tools/scenes/outdoors/daylight_light.h"
+#include "tools/scenes/outdoors/wide_grid.h"
 
 /// Metres: the map's width, and how high it is in the middle of the valley.
 #define TILE   4096.0
 #define VALLEY (0.2 * TERRAIN_RELIEF * TILE)
 
-enum { CELLS = 256, KEYS = 241 };
+enum { KEYS = 241 };
 
 #define PERIOD 20.0 ///< of the flight, seconds
 
@@ -49,31 +49,16 @@ static lobe_result add_material(lobe_scene *scene, const lobe_host *host) {
     return result ? result : scenes_add_material(scene, "ground", &material, host, NULL);
 }
 
-/// Metres from the middle for each row and column: 32 there, 64 texels of the map, and 24 km in
-/// all.
-static float line_of_grid(uint32_t index) {
-    return (float)(1446.0 * sinh(2.833 * (2.0 * index / CELLS - 1)));
-}
-
+/// 32 metres from one row to the next in the middle, 64 texels of the map, and 24 km in all.
 static lobe_result add_ground(lobe_scene *scene, const lobe_host *host) {
-    lobe_mesh mesh;
-    const lobe_result result = scenes_mesh_allocate(&mesh, "ground", (CELLS + 1) * (CELLS + 1),
-                                                    (size_t)CELLS * CELLS * 6, host);
-    if (result != LOBE_OK)
-        return result;
-    mesh.has_texture_coordinates[0] = true;
-    for (uint32_t row = 0; row <= CELLS; row++)
-        for (uint32_t column = 0; column <= CELLS; column++) {
-            const float x = line_of_grid(column), z = line_of_grid(row);
-            mesh.vertices[row * (CELLS + 1) + column] = (lobe_scene_vertex){
-                .position = {x, (float)-VALLEY, z},
-                .normal = {0, 1, 0},
-                .tangent = {1, 0, 0, 1},
-                .texture_coordinates = {{(float)(x / TILE + 0.5), (float)(z / TILE + 0.5)}},
-                .colour = {1, 1, 1, 1}};
-        }
-    scenes_shape_grid_indices(CELLS, CELLS, mesh.indices);
-    return scenes_place_mesh(scene, &mesh, 0, host);
+    static const wide_grid ground = {.name = "ground",
+                                     .cells = 256,
+                                     .width = 1446,
+                                     .growth = 2.833,
+                                     .height = -VALLEY,
+                                     .tile = TILE,
+                                     .middle_of_tile = 0.5};
+    return wide_grid_add(scene, &ground, host);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -95,47 +80,22 @@ static void rotation_at(vector3 place, float rotation[4]) {
     rotation[3] = (float)(cos(0.5 * tilt) * cos(0.5 * turn));
 }
 
-static bool allocate_channel(lobe_animation_channel *channel, lobe_channel_path path, size_t width,
-                             const lobe_allocator *allocator) {
-    *channel = (lobe_animation_channel){
-        .path = path,
-        .interpolation = LOBE_INTERPOLATION_LINEAR,
-        .times = lobe_allocate(allocator, KEYS, sizeof *channel->times),
-        .key_count = KEYS,
-        .width = width,
-        .values = lobe_allocate(allocator, KEYS * width, sizeof *channel->values),
-    };
-    return channel->times && channel->values;
-}
-
 static void fill_keys(lobe_animation_channel *places, lobe_animation_channel *rotations) {
     for (size_t i = 0; i < KEYS; i++) {
         const double part = (double)i / (KEYS - 1);
         const vector3 place = place_on_flight(part);
-        places->times[i] = rotations->times[i] = (float)(PERIOD * part);
         vector3_store(place, &places->values[3 * i]);
         rotation_at(place, &rotations->values[4 * i]);
     }
 }
 
 static bool add_animation(lobe_rig *rig, const lobe_allocator *allocator) {
-    lobe_animation *animation = rig->animations =
-        lobe_allocate(allocator, 1, sizeof *rig->animations);
-    if (!animation)
+    static const keyed_channel channels[] = {{LOBE_CHANNEL_TRANSLATION, 3},
+                                             {LOBE_CHANNEL_ROTATION, 4}};
+    if (!keyed_animation_add(rig, "flight", PERIOD, KEYS, channels, 2, allocator))
         return false;
-    rig->animation_count = 1;
-    animation->name = lobe_copy_text(allocator, "flight");
-    animation->channels = lobe_allocate(allocator, 2, sizeof *animation->channels);
-    animation->duration = PERIOD;
-    if (!animation->name || !animation->channels)
-        return false;
-    animation->channel_count = 2;
-    const bool done =
-        allocate_channel(&animation->channels[0], LOBE_CHANNEL_TRANSLATION, 3, allocator) &&
-        allocate_channel(&animation->channels[1], LOBE_CHANNEL_ROTATION, 4, allocator);
-    if (done)
-        fill_keys(&animation->channels[0], &animation->channels[1]);
-    return done;
+    fill_keys(&rig->animations[0].channels[0], &rig->animations[0].channels[1]);
+    return true;
 }
 
 static bool add_node(lobe_rig *rig, const lobe_allocator *allocator) {
