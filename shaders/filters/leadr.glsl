@@ -17,7 +17,7 @@
 #else
 
 #include "shading/slope_maps.glsl"
-#include "lib/microfacet/seen_slopes.glsl"
+#include "filters/leadr/drawn_slope.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
@@ -57,19 +57,13 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return footprint_lobe(facets, slopes, 1.0, 1.0, facets, slopes);
 }
 
-float trace(vec3 covariance) {
-    return covariance.x + covariance.y;
-}
-
 // Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
 // is seen. The area that facets show counts only as far as their slopes are those of relief that is
 // not drawn: of what is finer than the level whose texels are as large as vertices are apart, whose
 // covariance that of `between` is. (The paper takes the footprint's own, so that the mean
 // brightness depends on the size of triangles.)
 //
-// Where pixels are smaller than triangles, undrawn relief is larger than a pixel, too: such slopes
-// would be seen more often if they face the viewer. The footprint's mean moves to where it is in
-// the distribution of those. Where pixels are larger, part of their own covariance is drawn.
+// Where pixels are larger than triangles, part of their own covariance is drawn.
 //
 // What is not drawn shadows, too, about the triangle's slope where pixels are smaller than it.
 void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
@@ -79,14 +73,7 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
     slope_moments between = fetch_level(area.centre, level, surface);
     vec3 base = base_covariance(moments);
     float own = trace(moments.covariance), undrawn = trace(between.covariance);
-    slope_distribution larger = slope_distribution_of(
-        between.mean,
-        share * max(undrawn - own, 0.0) / max(undrawn, 1e-12) * between.covariance);
-    vec2 mean =
-        slope_that_is_seen(moments.mean, larger,
-                           height_above_slope(surface.drawn_slope, surface.outgoing),
-                           surface.outgoing);
-    mean = facing_slope(mean, surface);
+    vec2 mean = mean_on_triangles(moments, between, share, surface);
     lobe.facets.mean = lobe.slopes.mean = mean;
     lobe.undrawn_facets = min(undrawn / max(own, 1e-12), 1.0);
     lobe.undrawn_slopes = min((undrawn + trace(base)) / max(own + trace(base), 1e-12), 1.0);

@@ -9,7 +9,7 @@
 
 #include "shading/slope_maps.glsl"
 #include "interface/moment_bins.h"
-#include "lib/microfacet/seen_slopes.glsl"
+#include "filters/leadr/drawn_slope.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
@@ -92,7 +92,7 @@ map_area square_of_level(map_area area, float level) {
     return square;
 }
 
-// Where pixels are smaller than triangles, all lobes move as leadr.glsl says that its one does.
+// Where pixels are smaller than triangles, all lobes move as the mean of the footprint does.
 // Then the footprint masks itself, as in the paper, however the triangles lie: to mask about the
 // triangle's slope was worse.
 void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
@@ -102,16 +102,7 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
     slope_moments between = moments;
     if (share > 0.0)
         fetch_lobe(square_of_level(area, level), surface, between);
-    float own = moments.covariance.x + moments.covariance.y;
-    float undrawn = between.covariance.x + between.covariance.y;
-    slope_distribution larger = slope_distribution_of(
-        between.mean,
-        share * max(undrawn - own, 0.0) / max(undrawn, 1e-12) * between.covariance);
-    vec2 mean =
-        slope_that_is_seen(moments.mean, larger,
-                           height_above_slope(surface.drawn_slope, surface.outgoing),
-                           surface.outgoing);
-    vec2 moved = facing_slope(mean, surface) - moments.mean;
+    vec2 moved = mean_on_triangles(moments, between, share, surface) - moments.mean;
     moments.mean += moved;
     for (uint i = 0u; i < BINS; ++i) {
         lobe.lobes[i].facets.mean += moved;
