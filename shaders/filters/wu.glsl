@@ -225,9 +225,9 @@ plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
 }
 
 // Wu et al., 2019, Eq. 18: T S f'_low, of microfacets.
-void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, surface_point surface,
-                        float width) {
-    table_place outgoing = place_in_table(drawn.viewer);
+// `scaling`: of mirrors, for each light.
+void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, float scaling[4],
+                        surface_point surface, float width) {
     light_sum sums[4];
     for (int k = 0; k < 4; ++k)
         sums[k] = no_light();
@@ -239,22 +239,26 @@ void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, surface_
                 add_bin_to_light(sums[k], bin, halfway, plane_from_direction(halfway));
         }
     }
-    float scaling = weight * mirror_scaling_of_cell(level, cell);
+    float factor = weight * mirror_scaling_of_cell(level, cell);
     for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
         float both = seen_by_both(seen, seen_areas(cell, drawn.towards[k]));
         if (both > 0.0)
-            add_light(drawn.mirrored[k], sums[k],
-                      scaling * both *
-                          scaling_of_mirrors(level, place_in_table(drawn.towards[k]), outgoing));
+            add_light(drawn.mirrored[k], sums[k], factor * both * scaling[k]);
     }
 }
 
 void add_level(uint level, vec2 centre, float share, surface_point surface, float width) {
     covered_cells covered = cells_around(level, centre);
     table_place outgoing = place_in_table(drawn.viewer);
+    const bool mirrors = has_facets() && width > 0.0;
     vec2 scaling[MOST_LIGHTS];
-    for (int k = 0; k < drawn.lights; ++k)
-        scaling[k] = scaling_of_directions(level, place_in_table(drawn.towards[k]), outgoing);
+    float mirror_scaling[4] = float[4](0.0, 0.0, 0.0, 0.0);
+    for (int k = 0; k < drawn.lights; ++k) {
+        table_place incoming = place_in_table(drawn.towards[k]);
+        scaling[k] = scaling_of_directions(level, incoming, outgoing);
+        if (mirrors && k < 4)
+            mirror_scaling[k] = scaling_of_mirrors(level, incoming, outgoing);
+    }
     for (int i = 0; i < 4; ++i) {
         uint cell = covered.cells[i];
         float weight = share * covered.weights[i];
@@ -275,8 +279,8 @@ void add_level(uint level, vec2 centre, float share, surface_point surface, floa
             drawn.direct[k] += light * scaling[k].x * factor;
             drawn.indirect[k] += light * scaling[k].y * factor;
         }
-        if (has_facets() && width > 0.0)
-            add_mirrored_light(level, cell, weight, seen, surface, width);
+        if (mirrors)
+            add_mirrored_light(level, cell, weight, seen, mirror_scaling, surface, width);
     }
 }
 
