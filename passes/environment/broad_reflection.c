@@ -20,8 +20,13 @@ bool passes_reflects_broadly(const lobe_material *material) {
 
 enum { NODES = 16, ROWS = BROAD_DEGREE + 1 };
 
-/// Gauss and Legendre's nodes and weights on [0, 1], by Newton's method.
-static void legendre_nodes(double nodes[NODES], double weights[NODES]) {
+/// On [0, 1].
+typedef struct quadrature {
+    double nodes[NODES], weights[NODES];
+} quadrature;
+
+/// Gauss and Legendre's, by Newton's method.
+static void make_quadrature(quadrature *rule) {
     for (int i = 0; i < NODES; i++) {
         double x = cos(M_PI * (i + 0.75) / (NODES + 0.5)), slope = 1;
         for (int step = 0; step < 8; step++) {
@@ -34,8 +39,8 @@ static void legendre_nodes(double nodes[NODES], double weights[NODES]) {
             slope = NODES * (x * current - before) / (x * x - 1);
             x -= current / slope;
         }
-        nodes[i] = 0.5 + 0.5 * x;
-        weights[i] = 1 / ((1 - x * x) * slope * slope);
+        rule->nodes[i] = 0.5 + 0.5 * x;
+        rule->weights[i] = 1 / ((1 - x * x) * slope * slope);
     }
 }
 
@@ -58,18 +63,19 @@ static double scale_of_harmonic(int order, int degree) {
 
 /// rows[l - order]: the weighted harmonics of z times z^power times (sin theta)^order cos(order
 /// azimuth) over the hemisphere.
-static void harmonics_of_function(int order, int power, double rows[ROWS]) {
-    double nodes[NODES], weights[NODES];
-    legendre_nodes(nodes, weights);
+static void harmonics_of_function(const quadrature *rule, int order, int power, double rows[ROWS]) {
+    double scale[ROWS] = {0};
     for (int k = 0; k < ROWS; k++)
         rows[k] = 0;
+    for (int l = order; l <= BROAD_DEGREE; l++)
+        scale[l - order] = scale_of_harmonic(order, l);
     for (int i = 0; i < NODES; i++) {
-        const double z = nodes[i], square = 1 - z * z;
-        double value =
-            weights[i] * pow(z, power + 1) * pow(square, order) * (order > 0 ? M_PI : 2 * M_PI);
+        const double z = rule->nodes[i], square = 1 - z * z;
+        double value = rule->weights[i] * pow(z, power + 1) * pow(square, order) *
+                       (order > 0 ? M_PI : 2 * M_PI);
         double before = 0, current = 1;
         for (int l = order; l <= BROAD_DEGREE; l++) {
-            rows[l - order] += value * current * scale_of_harmonic(order, l);
+            rows[l - order] += value * current * scale[l - order];
             double next = (z * (2 * l + 1) * current - (l + order) * before) / (l + 1 - order);
             before = current;
             current = next;
@@ -117,13 +123,15 @@ static void fit_order(int count, double rows[BROAD_ORDERS][ROWS], double ridge,
 static struct broad_harmonics known_harmonics(void) {
     struct broad_harmonics known = {0};
     int harmonic = 0, function = 0;
+    quadrature rule;
+    make_quadrature(&rule);
     for (int order = 0; order < BROAD_ORDERS; order++) {
         for (int degree = order; degree <= BROAD_DEGREE; degree++)
             known.scale[harmonic++] = (float)scale_of_harmonic(order, degree);
         const int count = BROAD_ORDERS - order;
         double rows[BROAD_ORDERS][ROWS], free[BROAD_ORDERS][ROWS], held[BROAD_ORDERS][ROWS];
         for (int i = 0; i < count; i++)
-            harmonics_of_function(order, i, rows[i]);
+            harmonics_of_function(&rule, order, i, rows[i]);
         fit_order(count, rows, 0, free);
         fit_order(count, rows, BROAD_RIDGE, held);
         for (int i = 0; i < count; i++, function++) {
