@@ -9,6 +9,7 @@
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
+#include "tests/passes/displacement/drawn_geometry.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -55,16 +56,6 @@ static lobe_material relief(lobe_scene *scene, lobe_image heights, double scale,
     material.height_map = scene_add_map(scene, heights);
     material.height_scale = (float)scale;
     return material;
-}
-
-static void add(lobe_scene *scene, lobe_mesh *mesh, const lobe_material *material,
-                const float transform[16]) {
-    uint32_t mesh_index, material_index;
-    assert_int_equal(scenes_add_mesh(scene, mesh, NULL, &mesh_index), LOBE_OK);
-    assert_int_equal(scenes_add_material(scene, "relief", material, NULL, &material_index),
-                     LOBE_OK);
-    assert_int_equal(scenes_add_instance(scene, mesh_index, material_index, transform, NULL),
-                     LOBE_OK);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -216,7 +207,7 @@ static void normals_are_those_of_a_torus_with_relief(void **state) {
     lobe_scene *scene = scene_begin();
     const lobe_material material = relief(scene, field_map(&torus_waves, 512, 512), scale, 0);
     lobe_mesh mesh = torus_mesh();
-    add(scene, &mesh, &material, NULL);
+    add_instance_of(scene, &mesh, &material, NULL);
     scene_look_down(scene, 3.2);
     scene_end(scene);
     for (size_t i = 0; i < 2 * sizeof filters / sizeof *filters; i++) {
@@ -390,7 +381,7 @@ static lobe_scene *mesh_scene(const plane_case *c, const wave_field *field, doub
     }
     scenes_shape_grid_indices(QUADS, QUADS, mesh.indices);
     scenes_mesh_compute_bounds(&mesh);
-    add(scene, &mesh, &material, NULL);
+    add_instance_of(scene, &mesh, &material, NULL);
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 3);
     return scene;
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "scenes/scene/scene.h"
-#include "tests/passes/support/pass_run.h"
+#include "tests/passes/renderer/culling/listed_draws.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -74,21 +74,6 @@ static lobe_scene *crowd(bool alone) {
 
 // ---------------------------------------------------------------------------------------------
 // The list
-
-/// The list of a scene whose instances of a material share its maps, unless `maps` has one for each
-/// instance.
-static void list_draws(pass_run *run, draw_list *list, const filtered_appearance *maps,
-                       bool shared) {
-    const device_scene *scene = run->scene;
-    assert_true(passes_draw_list_create(list, scene->scene->mesh_count, NULL) &&
-                passes_draw_list_reserve(list, scene->scene->instance_count, NULL));
-    passes_draw_list_begin(list, scene);
-    for (uint32_t m = 0; m < scene->scene->material_count; m++)
-        for (uint32_t next = scene->materials[m].first_instance; next > 0;
-             next = scene->instances[next - 1].next_of_material)
-            passes_draw_list_add(list, scene, next - 1, &maps[shared ? m : next - 1], shared);
-    passes_draw_list_end(list, &run->context);
-}
 
 static bool go_together(size_t a, size_t b) {
     return mesh_of((uint32_t)a) == mesh_of((uint32_t)b) &&

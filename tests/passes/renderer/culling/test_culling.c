@@ -12,6 +12,7 @@
 #include "passes/renderer/renderer.h"
 #include "scenes/builtin/random.h"
 #include "scenes/scene/scene.h"
+#include "tests/passes/renderer/culling/listed_draws.h"
 #include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -119,18 +120,6 @@ static double distance_beyond(const lobe_mesh *mesh, const float *m, mat4 matrix
     return beyond;
 }
 
-static void list_draws(pass_run *run, draw_list *list, const filtered_appearance *maps) {
-    const device_scene *scene = run->scene;
-    assert_true(passes_draw_list_create(list, scene->scene->mesh_count, NULL) &&
-                passes_draw_list_reserve(list, scene->scene->instance_count, NULL));
-    passes_draw_list_begin(list, scene);
-    for (uint32_t m = 0; m < scene->scene->material_count; m++)
-        for (uint32_t next = scene->materials[m].first_instance; next > 0;
-             next = scene->instances[next - 1].next_of_material)
-            passes_draw_list_add(list, scene, next - 1, maps, true);
-    passes_draw_list_end(list, &run->context);
-}
-
 /// Checks one batch, whose instances are those of the list's transforms; returns how many are kept.
 static uint32_t check_batch(const draw_list *list, const instance_batch *batch,
                             const lobe_mesh *mesh, mat4 matrix,
@@ -157,7 +146,7 @@ static uint32_t check_batch(const draw_list *list, const instance_batch *batch,
 
 static void instances_that_may_be_seen_keep_their_order(void **state) {
     static const float centre[2] = {0.5f, 0.5f};
-    static const filtered_appearance maps = {0};
+    static const filtered_appearance maps[3] = {0}; // of each material
     lobe_scene *scene = crowd();
     for (int number = 0; number < CAMERAS; number++) {
         const lobe_camera camera = camera_of(scene, number);
@@ -169,7 +158,7 @@ static void instances_that_may_be_seen_keep_their_order(void **state) {
         run.context.view = (filter_view){&camera, EXTENT, EXTENT};
         passes_camera_projection(&camera, EXTENT, EXTENT, centre, scene->minimum, scene->maximum,
                                  matrix);
-        list_draws(&run, &list, &maps);
+        list_draws(&run, &list, maps, true);
         passes_culling(&run.context, &list);
         const seen_instances *all = &list.batches[0].seen;
         assert_true(all->transforms.version > 0);
