@@ -253,15 +253,17 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
 // ---------------------------------------------------------------------------------------------
 // Pipelines alone
 
-/// The host's callback, which is not asked again once it has said stop.
+/// The host's callback, which is not asked again once it has said stop, or another thread.
 typedef struct preparation {
     const lobe_render_host *host;
+    const atomic_bool *stopped_from_outside;
     bool stopped;
 } preparation;
 
 static bool report_preparation(void *user, double part) {
     preparation *p = user;
-    p->stopped = p->stopped || (p->host->progress && !p->host->progress(p->host->user, part));
+    p->stopped = p->stopped || (p->stopped_from_outside && atomic_load(p->stopped_from_outside)) ||
+                 (p->host->progress && !p->host->progress(p->host->user, part));
     return !p->stopped;
 }
 
@@ -294,12 +296,10 @@ static lobe_result prepare_frame(rendering *r, environment_state *environment, l
     return result;
 }
 
-lobe_result lobe_renderer_prepare(lobe_renderer *renderer,
-                                  const lobe_render_parameters *parameters) {
-    if (!renderer || !parameters)
-        return lobe_host_fail(renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
-                              "lobe_renderer_prepare: renderer and parameters must not be NULL");
-    preparation state = {.host = &parameters->host};
+lobe_result passes_renderer_prepare(lobe_renderer *renderer,
+                                    const lobe_render_parameters *parameters,
+                                    const atomic_bool *stopped) {
+    preparation state = {.host = &parameters->host, .stopped_from_outside = stopped};
     lobe_render_parameters prepared = *parameters;
     prepared.host.progress = report_preparation;
     prepared.host.add_passes = parameters->host.add_passes ? add_prepared_passes : NULL;
@@ -317,4 +317,12 @@ lobe_result lobe_renderer_prepare(lobe_renderer *renderer,
     lobe_frame_free(&frame);
     passes_environment_light_forget(&environment);
     return result;
+}
+
+lobe_result lobe_renderer_prepare(lobe_renderer *renderer,
+                                  const lobe_render_parameters *parameters) {
+    if (!renderer || !parameters)
+        return lobe_host_fail(renderer ? &renderer->host : NULL, LOBE_ERROR_INVALID_ARGUMENT,
+                              "lobe_renderer_prepare: renderer and parameters must not be NULL");
+    return passes_renderer_prepare(renderer, parameters, NULL);
 }

@@ -1,6 +1,8 @@
 #ifndef PASSES_RENDERER_RENDERER_H
 #define PASSES_RENDERER_RENDERER_H
 
+#include <stdatomic.h>
+
 #include <lobe/renderer.h>
 
 #include "passes/context/fit_work.h"
@@ -65,6 +67,11 @@ lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lo
 /// Renders the reference: the mean of many samples per pixel, taken in several submissions.
 lobe_result passes_reference_render(rendering *r, const frame_delivery *delivery,
                                     lobe_frame *frame);
+
+/// As lobe_renderer_prepare, until `*stopped` (NULL: never), which another thread may set.
+lobe_result passes_renderer_prepare(lobe_renderer *renderer,
+                                    const lobe_render_parameters *parameters,
+                                    const atomic_bool *stopped);
 
 /// Uploads materials that a pose has moved. Errors: as lobe_renderer_update_scene.
 lobe_result passes_renderer_follow_pose(lobe_renderer *renderer);

@@ -22,6 +22,7 @@
 #include <lobe/maps.h>
 #include <lobe/ocean.h>
 #include <lobe/png.h>
+#include <lobe/preparation.h>
 #include <lobe/profile.h>
 #include <lobe/renderer.h>
 #include <lobe/result.h>

@@ -337,11 +337,8 @@ LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
 /// need (other texels, other materials) is not included, except where images are given on the
 /// device.
 ///
-/// To prepare something new while another renderer of the device draws, in a thread of the host's:
-/// create a renderer there, set a scene with at least one instance of each new material, and the
-/// lights and environment that it will be drawn with, and prepare that. Frames do not wait
-/// meanwhile, unless they need a pipeline that is in the making. Keep that renderer until the new
-/// things have been drawn, and they find their texels and meshes on the device, too.
+/// To prepare something new while renderers of the device draw, see lobe/preparation.h, which calls
+/// this in a thread of lobe's.
 ///
 /// `parameters->host.progress` is called with the part done after each pipeline (of the reference,
 /// several times from 0 to 1); returning false stops, with LOBE_OK. Returning is the sign that all

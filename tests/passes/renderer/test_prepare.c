@@ -3,11 +3,16 @@
 
 #include "tests/passes/support/fixture.h"
 
+#include <lobe/preparation.h>
+
 #include <pthread.h>
+#include <semaphore.h>
+#include <signal.h>
 #include <string.h>
 #include <time.h>
 
 #include "scenes/scene/scene.h"
+#include "tests/engine/support/counting_allocator.h"
 #include "tests/engine/support/host_device.h"
 #include "tests/engine/support/vulkan_faults.h"
 #include "tests/passes/support/picture.h"
@@ -249,7 +254,8 @@ typedef struct gate {
     pthread_t tester;
     bool open;
     int waiting;
-    VkResult refusal; ///< what the first one gets
+    bool takes_signals; ///< one of those that waited
+    VkResult refusal;   ///< what the first one gets
 } gate;
 
 static gate the_gate;
@@ -257,8 +263,11 @@ static gate the_gate;
 static VkResult pass_the_gate(void) {
     if (pthread_equal(pthread_self(), the_gate.tester))
         return VK_SUCCESS;
+    sigset_t blocked;
+    pthread_sigmask(SIG_BLOCK, NULL, &blocked);
     pthread_mutex_lock(&the_gate.mutex);
     ++the_gate.waiting;
+    the_gate.takes_signals |= !sigismember(&blocked, SIGTERM);
     pthread_cond_broadcast(&the_gate.changed);
     while (!the_gate.open)
         pthread_cond_wait(&the_gate.changed, &the_gate.mutex);
@@ -274,6 +283,7 @@ static void close_the_gate(VkResult refusal) {
     the_gate.tester = pthread_self();
     the_gate.open = false;
     the_gate.waiting = 0;
+    the_gate.takes_signals = false;
     the_gate.refusal = refusal;
     faults.making = pass_the_gate;
 }
@@ -298,35 +308,49 @@ static void remove_the_gate(void) {
     pthread_cond_destroy(&the_gate.changed);
 }
 
-/// A thread of the host's that prepares a scene. Only the test's own thread asserts.
+/// A preparation, and what it told. Only the test's own thread asserts.
 typedef struct job {
-    lobe_device *device;
-    const lobe_host *host;
-    const lobe_scene *scene;
-    lobe_render_parameters parameters;
-    lobe_renderer *renderer;
+    lobe_preparation *preparation;
+    sem_t told;
+    int calls;
     lobe_result result;
-    pthread_t thread;
 } job;
 
-static void *prepare(void *user) {
+static void tell(void *user, lobe_result result) {
     job *self = user;
-    self->result = lobe_renderer_create(self->device, self->host, &self->renderer);
-    if (self->result == LOBE_OK)
-        self->result = lobe_renderer_set_scene(self->renderer, self->scene);
-    if (self->result == LOBE_OK)
-        self->result = lobe_renderer_prepare(self->renderer, &self->parameters);
-    return NULL;
+    ++self->calls;
+    self->result = result;
+    sem_post(&self->told);
+}
+
+static lobe_result try_to_begin(job *self, const fixture *f, const lobe_scene *scene,
+                                const lobe_render_parameters *wanted) {
+    const lobe_preparation_parameters asked = {
+        .scene = scene, .frames = wanted, .frame_count = 1, .done = tell, .user = self};
+    self->calls = 0;
+    sem_init(&self->told, 0, 0);
+    return lobe_preparation_begin(f->device, &asked, &f->host, &self->preparation);
 }
 
 static void begin(job *self, const fixture *f, const lobe_scene *scene,
                   const lobe_render_parameters *wanted) {
-    *self = (job){.device = f->device, .host = &f->host, .scene = scene, .parameters = *wanted};
-    assert_int_equal(pthread_create(&self->thread, NULL, prepare, self), 0);
+    assert_int_equal(try_to_begin(self, f, scene, wanted), LOBE_OK);
 }
 
+/// Waits until it is done; the preparation stays.
 static void end(job *self) {
-    assert_int_equal(pthread_join(self->thread, NULL), 0);
+    lobe_result result = LOBE_RESULT_COUNT;
+    sem_wait(&self->told);
+    while (!lobe_preparation_is_done(self->preparation, &result))
+        nanosleep(&(struct timespec){.tv_nsec = 100000}, NULL);
+    assert_int_equal(self->calls, 1);
+    assert_int_equal(result, self->result);
+}
+
+static void drop(job *self) {
+    lobe_preparation_destroy(&self->preparation);
+    assert_null(self->preparation);
+    sem_destroy(&self->told);
 }
 
 /// Two materials, of which only the first has an instance.
@@ -367,6 +391,7 @@ static void frames_go_on_while_others_prepare(void **state) {
         close_the_gate(VK_SUCCESS);
         begin(&other, &own, &grown, &wanted);
         wait_at_the_gate(1);
+        assert_false(lobe_preparation_is_done(other.preparation, NULL));
         for (int n = 0; n < 3; n++)
             assert_true(picture(&own, renderer, &wanted) == before);
         // Not even what needs another pipeline waits.
@@ -384,7 +409,7 @@ static void frames_go_on_while_others_prepare(void **state) {
         const uint64_t after = picture(&own, renderer, &wanted);
         assert_int_equal(faults.pipelines, 0);
         assert_true(after != before);
-        lobe_renderer_destroy(&other.renderer);
+        drop(&other);
         lobe_renderer *fresh = renderer_of(&own, scene);
         assert_true(picture(&own, fresh, &wanted) == after);
         lobe_renderer_destroy(&fresh);
@@ -424,7 +449,7 @@ static void threads_make_each_pipeline_once(void **state) {
     for (int n = 0; n < JOBS; n++) {
         end(&jobs[n]);
         assert_int_equal(jobs[n].result, LOBE_OK);
-        lobe_renderer_destroy(&jobs[n].renderer);
+        drop(&jobs[n]);
     }
     remove_the_gate();
     assert_int_equal(faults.pipelines, expected);
@@ -449,7 +474,7 @@ static void a_failure_stays_in_its_thread(void **state) {
     open_the_gate();
     for (int n = 0; n < 2; n++) {
         end(&jobs[n]);
-        lobe_renderer_destroy(&jobs[n].renderer);
+        drop(&jobs[n]);
     }
     remove_the_gate();
     assert_int_equal(jobs[0].result, LOBE_ERROR_OUT_OF_DEVICE_MEMORY);
@@ -459,6 +484,75 @@ static void a_failure_stays_in_its_thread(void **state) {
     fixture_forget_messages(f);
     lobe_scene_destroy(&scene);
     stop(f, &own);
+}
+
+static void *open_later(void *unused) {
+    (void)unused;
+    nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+    open_the_gate();
+    return NULL;
+}
+
+/// No more than the pipeline that is in the making is waited for, and nobody is told.
+static void a_preparation_can_be_given_up(void **state) {
+    lobe_scene *scene = rich_scene();
+    const lobe_render_parameters wanted = parameters("toksvig");
+    const int expected = pipelines_of(*state, scene, &wanted);
+    fixture own = start(*state);
+    job given_up;
+    pthread_t opener;
+    close_the_gate(VK_SUCCESS);
+    faults.pipelines = 0;
+    begin(&given_up, &own, scene, &wanted);
+    wait_at_the_gate(1);
+    assert_int_equal(pthread_create(&opener, NULL, open_later, NULL), 0);
+    drop(&given_up);
+    assert_int_equal(pthread_join(opener, NULL), 0);
+    remove_the_gate();
+    assert_int_equal(given_up.calls, 0);
+    assert_int_equal(faults.pipelines, 1);
+    assert_true(expected > 1);
+    assert_false(the_gate.takes_signals);
+    lobe_scene_destroy(&scene);
+    stop(*state, &own);
+}
+
+/// Each allocation that fails in either thread is told of once, and nothing is left.
+static void allocations_may_fail(void **state) {
+    fixture *f = *state;
+    counting_allocator counting;
+    counting_allocator_start(&counting);
+    fixture own = start(f);
+    lobe_device_destroy(&own.device);
+    own.host.allocator = &counting.allocator;
+    own.device = fixture_device(&own, (lobe_device_parameters){0});
+    lobe_scene *scene = rich_scene();
+    const lobe_render_parameters wanted = parameters("direct");
+    size_t failing = 1, failures = 0;
+    for (bool failed = true; failed; ++failing) {
+        job trial;
+        const size_t blocks = counting.blocks;
+        counting.taken = 0;
+        counting.failing = failing;
+        lobe_result result = try_to_begin(&trial, &own, scene, &wanted);
+        if (result == LOBE_OK) {
+            end(&trial);
+            result = trial.result;
+        }
+        drop(&trial);
+        counting.failing = 0;
+        failed = result != LOBE_OK;
+        failures += failed;
+        assert_int_equal(f->errors, failed);
+        assert_true(!failed || result == LOBE_ERROR_OUT_OF_MEMORY);
+        // What a failed one has made of pipelines and shaders stays on the device.
+        assert_true(counting.blocks >= blocks);
+        fixture_forget_messages(f);
+    }
+    assert_true(failures > 20);
+    lobe_scene_destroy(&scene);
+    stop(f, &own);
+    assert_nothing_left(&counting);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -479,6 +573,20 @@ static void mistakes_are_those_of_frames(void **state) {
     assert_failure(f, lobe_renderer_prepare(renderer, &wanted), LOBE_ERROR_INVALID_ARGUMENT,
                    "a target without radiance");
     fixture_forget_messages(f);
+    job other;
+    wanted = parameters("direct");
+    begin(&other, &own, &(lobe_scene){.name = "nothing"}, &wanted);
+    end(&other);
+    drop(&other);
+    assert_int_equal(other.result, LOBE_ERROR_MALFORMED);
+    fixture_forget_messages(f);
+    wanted.width = 0;
+    begin(&other, &own, scene, &wanted);
+    end(&other);
+    drop(&other);
+    assert_int_equal(other.result, LOBE_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(f->error, "a picture of 0x8 pixels"));
+    fixture_forget_messages(f);
     lobe_renderer_destroy(&renderer);
     lobe_scene_destroy(&scene);
     stop(f, &own);
@@ -493,6 +601,8 @@ int main(void) {
         cmocka_unit_test(frames_go_on_while_others_prepare),
         cmocka_unit_test(threads_make_each_pipeline_once),
         cmocka_unit_test(a_failure_stays_in_its_thread),
+        cmocka_unit_test(a_preparation_can_be_given_up),
+        cmocka_unit_test(allocations_may_fail),
         cmocka_unit_test(mistakes_are_those_of_frames),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);

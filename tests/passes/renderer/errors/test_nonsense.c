@@ -473,6 +473,14 @@ static void renderers(void **state) {
             lobe_renderer_render(f->renderer, NULL, &frame));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_update_scene",
             lobe_renderer_update_scene(f->renderer, NULL));
+    lobe_preparation *preparation;
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_preparation_begin",
+            lobe_preparation_begin(f->device, &(lobe_preparation_parameters){0}, &f->host,
+                                   &preparation));
+    assert_null(preparation);
+    assert_false(lobe_preparation_is_done(NULL, NULL));
+    lobe_preparation_destroy(NULL);
+    lobe_preparation_destroy(&preparation);
     assert_null(lobe_renderer_graph(NULL));
     lobe_renderer_destroy(NULL);
     lobe_frame_free(NULL);
