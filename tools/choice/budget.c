@@ -98,15 +98,29 @@ static void warn_of_what_differs(const char *path, const budget_picture *picture
                       path);
 }
 
+/// `figures` may be empty: those of a calibration are of the picture's size.
+static trade_request request_of(const budget_options *options, const budget_picture *picture,
+                                const sweep_results *figures) {
+    const double timed = (double)figures->size[0] * figures->size[1];
+    return (trade_request){
+        .kind = options->has_milliseconds ? TRADE_LIMIT_MILLISECONDS : TRADE_LIMIT_ERROR,
+        .limit = options->has_milliseconds ? options->milliseconds : options->error,
+        .retained = options->maps == 1,
+        .pixels = timed > 0 ? (double)picture->size[0] * picture->size[1] / timed : 1,
+    };
+}
+
 static lobe_result find_figures(const budget_options *options, const budget_picture *picture,
                                 const lobe_host *host, sweep_results *figures,
                                 const sweep_scene **entry) {
     *entry = NULL;
+    const trade_request request = request_of(options, picture, figures);
     if (!options->sweep)
         return calibrate(&(calibration){.device = picture->device,
                                         .host = host,
                                         .scene = picture->scene,
-                                        .size = {picture->size[0], picture->size[1]}},
+                                        .size = {picture->size[0], picture->size[1]},
+                                        .request = &request},
                          figures);
     lobe_result result = find_entry(options->sweep, picture, host, figures, entry);
     if (result == LOBE_OK)
@@ -157,17 +171,6 @@ static void leave_out_noise(const sweep_scene *scene, sweep_results *figures) {
     }
 }
 
-static trade_request request_of(const budget_options *options, const budget_picture *picture,
-                                const sweep_results *figures) {
-    return (trade_request){
-        .kind = options->has_milliseconds ? TRADE_LIMIT_MILLISECONDS : TRADE_LIMIT_ERROR,
-        .limit = options->has_milliseconds ? options->milliseconds : options->error,
-        .retained = options->maps == 1,
-        .pixels = (double)picture->size[0] * picture->size[1] /
-                  ((double)figures->size[0] * figures->size[1]),
-    };
-}
-
 // ---------------------------------------------------------------------------------------------
 // Words
 
@@ -213,10 +216,11 @@ static text describe_source(const budget_options *options, const budget_picture 
                             const sweep_results *figures) {
     text source;
     const uint32_t *from = figures->size, *to = picture->size;
-    int used = snprintf(source.characters, sizeof source.characters,
-                        "%.256s, %u frame%s, errors against %u samples per pixel",
-                        options->sweep ? options->sweep : "calibrated", figures->frames,
-                        figures->frames == 1 ? "" : "s", figures->reference_samples);
+    int used =
+        snprintf(source.characters, sizeof source.characters,
+                 "%.256s, %s%u frame%s, errors against %u samples per pixel",
+                 options->sweep ? options->sweep : "calibrated", options->sweep ? "" : "up to ",
+                 figures->frames, figures->frames == 1 ? "" : "s", figures->reference_samples);
     if (from[0] != to[0] || from[1] != to[1])
         snprintf(source.characters + used, sizeof source.characters - (size_t)used,
                  ", scaled from %ux%u to %ux%u: shading by the pixels, building and errors as they "

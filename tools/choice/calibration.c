@@ -8,6 +8,52 @@
 #define CALIBRATION_FRAMES  3
 #define CALIBRATION_SAMPLES 64
 
+/// Knobs are not varied of filters whose defaults miss the limit by more than this factor, or cost
+/// as many times what the best default within the limit does,
+#define FARTHEST 4
+
+/// nor of those that another filter beats by this factor in error and no more time.
+#define CLEARLY_BETTER 2
+
+typedef struct candidates {
+    const trade_request *request;
+    size_t count; ///< of rows
+} candidates;
+
+/// The row of the same filter with its defaults, which comes before.
+static const sweep_row *find_defaults(const sweep_row *rows, size_t index) {
+    size_t defaults = index;
+    while (defaults > 0 && rows[defaults].varied[0] != '\0')
+        defaults--;
+    return &rows[defaults];
+}
+
+/// Whether no row that differs from `row` by its knobs is likely to be picked instead of `other`.
+static bool is_beaten(const trade_request *request, const sweep_row *row, const sweep_row *other) {
+    const double error = row->error.relative_l2, others_error = other->error.relative_l2;
+    const double time = trade_milliseconds(request, row);
+    const double others_time = trade_milliseconds(request, other);
+    if (others_error * CLEARLY_BETTER < error && others_time <= time)
+        return true;
+    return request->kind == TRADE_LIMIT_MILLISECONDS
+               ? others_time <= request->limit && error > FARTHEST * others_error
+               : others_error <= request->limit && time > FARTHEST * others_time;
+}
+
+/// Whether knobs of a row's filter may make it the choice: see sweep_brief.wants.
+static bool may_be_picked(void *user, const sweep_row *rows, size_t index) {
+    const candidates *among = user;
+    const trade_request *request = among->request;
+    const sweep_row *defaults = find_defaults(rows, index);
+    const double limited = request->kind == TRADE_LIMIT_MILLISECONDS
+                               ? trade_milliseconds(request, defaults)
+                               : defaults->error.relative_l2;
+    bool may = limited <= FARTHEST * request->limit;
+    for (size_t i = 0; may && i < among->count; i++)
+        may = rows[i].varied[0] != '\0' || !is_beaten(request, defaults, &rows[i]);
+    return may;
+}
+
 static void add_filters(bench_job *bench) {
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const lobe_filter *filter = lobe_filter_get(i);
@@ -41,8 +87,8 @@ static lobe_result measure(const sweep_job *job, lobe_scene *scene, sweep_result
         return lobe_host_fail(bench->host, LOBE_ERROR_OUT_OF_MEMORY, "calibration: out of memory");
     results->row_count = job->plan.count;
     lobe_host_log(bench->host, LOBE_LOG_NOTICE,
-                  "calibrating: %zu choices of filter and knobs at %ux%u, %u frames each, errors "
-                  "against %u samples per pixel",
+                  "calibrating: up to %zu choices of filter and knobs at %ux%u, up to %u frames "
+                  "each, errors against %u samples per pixel",
                   job->plan.count, bench->size[0], bench->size[1], bench->frames, bench->samples);
     progress_expect(bench->progress, sweep_scene_work(job));
     lobe_result result = sweep_measure(job, scene, &entry, results->rows);
@@ -55,6 +101,9 @@ static lobe_result measure(const sweep_job *job, lobe_scene *scene, sweep_result
 lobe_result calibrate(const calibration *calibration, sweep_results *results) {
     const volatile sig_atomic_t interrupted = 0; // Ctrl-C ends the program
     progress progress = progress_begin(false);
+    candidates among = {.request = calibration->request};
+    const sweep_brief brief = {
+        .retained = calibration->request->retained, .wants = may_be_picked, .user = &among};
     sweep_job job = {
         .bench = {.device = calibration->device,
                   .host = calibration->host,
@@ -62,7 +111,7 @@ lobe_result calibrate(const calibration *calibration, sweep_results *results) {
                   .size = {calibration->size[0], calibration->size[1]},
                   .frames = CALIBRATION_FRAMES,
                   .samples = CALIBRATION_SAMPLES},
-        .brief = true,
+        .brief = &brief,
         .interrupted = &interrupted,
     };
     *results = (sweep_results){
@@ -71,6 +120,7 @@ lobe_result calibrate(const calibration *calibration, sweep_results *results) {
         .frames = CALIBRATION_FRAMES,
     };
     lobe_result result = make_plan(&job);
+    among.count = job.plan.count;
     if (result == LOBE_OK)
         result = measure(&job, calibration->scene, results);
     sweep_plan_free(&job.plan);

@@ -20,7 +20,7 @@
 ///     subject.c    a scene in an environment: its name, and a check of earlier results
 ///     plan.c       which rows there are
 ///     truth.c      references, and the error of supersampling
-///     measure.c    all rows of one scene
+///     measure.c    all rows of one scene; scene_run.h lists its parts
 ///     flicker.c    change along the scene's path
 ///     bandwidth.c  plain copies of as many bytes as passes move
 ///     pictures.c   names and files of pictures
@@ -47,6 +47,16 @@ typedef struct sweep_subject {
     const char *environment; ///< a file, "sky" or "none"; NULL: the scene's own
 } sweep_subject;
 
+/// A sweep that measures only times of one kind of frame, and the error of the still picture: no
+/// pictures, no copies, no reference with converted base lobes.
+typedef struct sweep_brief {
+    bool retained; ///< times frames with maps retained, else with all maps rebuilt
+    /// Whether to measure row `index`, which varies a knob. The rows of all filters at their
+    /// defaults have been measured before.
+    bool (*wants)(void *user, const sweep_row *rows, size_t index);
+    void *user;
+} sweep_brief;
+
 typedef struct sweep_job {
     bench_job bench;
     sweep_plan plan;             ///< for scenes without an environment; for the current one
@@ -58,9 +68,7 @@ typedef struct sweep_job {
     const scene_options *opening;
     const char *knobs; ///< to vary, "a,b,c"; NULL: all
     uint32_t path_samples, stations;
-    /// Measures only times and the error of the still picture: no pictures, no copies, no reference
-    /// with converted base lobes; `stations` must be 0.
-    bool brief;
+    const sweep_brief *brief; ///< NULL: a whole sweep; otherwise `stations` must be 0
     bool resume;
     const volatile sig_atomic_t *interrupted; ///< not 0: stop soon
 } sweep_job;
@@ -153,10 +161,11 @@ double sweep_scene_work(const sweep_job *job);
 ///
 /// In every round each row has a turn in one renderer: a frame with its maps rebuilt that only
 /// warms up (switching between rows frees and allocates maps, and on a CPU memory is slow when
-/// first touched), timed frames with maps rebuilt, the same with maps retained, and, unless the
-/// sweep is brief, the same after all texels changed, which leaves the scene's texels moved. So
-/// only one row's maps are on the device at a time, however many rows there are, and yet the frames
-/// of all rows are spread over the same minutes.
+/// first touched), timed frames with maps rebuilt, the same with maps retained, and the same after
+/// all texels changed, which leaves the scene's texels moved. So only one row's maps are on the
+/// device at a time, however many rows there are, and yet the frames of all rows are spread over
+/// the same minutes. A brief sweep times a row's frames after its still instead, and frames of more
+/// than half a second once; rows that it does not want keep times and errors of 0.
 lobe_result sweep_measure(const sweep_job *job, lobe_scene *scene, sweep_scene *entry,
                           sweep_row *rows);
 

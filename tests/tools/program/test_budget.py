@@ -235,11 +235,13 @@ def test_a_calibration_measures_what_is_drawn():
     check(result.returncode == 0 and "calibrating: " in result.stderr, report(result))
     said = re.match(r"picked (\w+)(?: with (\S+=\S+))?: (\S+) ms with maps rebuilt, relative L2 "
                     r"(\S+); (\d+) of (\d+) choices keep to 100000 ms, this one errs least\n"
-                    r"none is more exact; figures: calibrated, 3 frames, errors against 64 "
-                    r"samples per pixel\n", result.stdout)
+                    r"none is more exact; figures: calibrated, up to 3 frames, errors "
+                    r"against 64 samples per pixel\n", result.stdout)
     check(said is not None, report(result))
     name, knob, milliseconds, error, within, choices = said.groups()
-    check(within == choices and f"calibrating: {choices} choices" in result.stderr, report(result))
+    most = re.search(r"calibrating: up to (\d+) choices", result.stderr)
+    # Averaged maps err by far more than a filter that is as fast, so their knobs are not tried.
+    check(within == choices and int(choices) < int(most[1]), report(result))
     check(name not in ("reference", "direct", "mipmap") and float(milliseconds) > 0,
           report(result))
     header = exr_header(folder / "out" / "a.exr")
