@@ -63,7 +63,7 @@ def test_shaders_become_a_table():
     status, printed, table = embed({"b.comp": GOOD, "a.comp": GOOD, "notes.txt": "no shader"})
     assert status == 0 and not printed, printed
     assert table.index('"a.comp"') < table.index('"b.comp"')
-    assert "table_count = 2;" in table and "0x07230203," in table
+    assert "table_count = 2;" in table and "U\"\\x7230203\\x" in table
 
 
 def test_filters_and_macros_give_variants():
@@ -88,7 +88,7 @@ void f() {}
 void main() { f(); }
 """})
     assert status == 0
-    words = [int(word, 16) for word in re.findall(r"0x([0-9a-f]{8}),", table)]
+    words = [int(word, 16) for word in re.findall(r"\\x([0-9a-f]+)", table)]
     assert operations(words, OP_FUNCTION_CALL) == [], "a function is not inlined"
     decorations = [operands[1:] for operands in operations(words, OP_DECORATE)]
     assert [SPECIALISATION, 3] in decorations and [BINDING, 2] in decorations, decorations
