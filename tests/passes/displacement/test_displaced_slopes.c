@@ -54,7 +54,7 @@ static double mean_at_spacing(fixture *f, const lobe_scene *scene, const char *s
 /// Measured, in per cent: between 1 pixel a vertex and others 0.1, 0.2, 0.3, 1.1, 5.0, 8.4; with
 /// the footprint's moments for masking, as in the paper, 1.2, 6, 2.1, 13, 7, 22. From the
 /// reference, at 8 pixels, 0.4, 0.3, 1.1, -0.6, -1.8, 24: of mirrors at 63 degrees 15 at 1 pixel,
-/// too, because their slopes are not quite Gaussian.
+/// too, in part because base lobes are added over the plane of the mean slope.
 static void brightness_does_not_depend_on_the_triangles(void **state) {
     fixture *f = *state;
     static const displaced_case cases[] = {{0.6, 1, 0, 0.004, 0.01},  {1.1, 1, 0, 0.006, 0.01},
