@@ -18,8 +18,9 @@ const filter_knob passes_knob_built = {
 };
 const filter_knob passes_knob_texel_samples = {
     .description = {.name = "texel_samples",
-                    .summary = "with built=seen: how many points of the base maps a texel of a "
-                               "level above the first is made from; all: it is their exact mean",
+                    .summary = "with built=seen: how many points of the base maps a texel is "
+                               "made from where it covers more, and bins are fitted to a part of "
+                               "the texels; all: exact means of all",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 3,
                     .choices = sample_numbers},

@@ -10,6 +10,9 @@
 // its texels.
 #define SURVEY_CELLS 32
 #define SURVEY_DRAWS 2
+// Where maps are made from parts of their texels (knob `texel_samples`), so many texels along each
+// axis of a cell are read, and not all.
+#define SURVEY_PART 16
 
 // Push constants of moment_cell_survey. They bound loops over texels: see lobe_grid.h.
 struct cell_survey_constants {
@@ -17,11 +20,13 @@ struct cell_survey_constants {
     uint height;
     uint columns; // cells
     uint rows;
+    uint part; // most texels of a cell that are read along each axis; 0: all
 };
-INTERFACE_SIZE(cell_survey_constants, 16)
+INTERFACE_SIZE(cell_survey_constants, 20)
 INTERFACE_OFFSET(cell_survey_constants, height, 4)
 INTERFACE_OFFSET(cell_survey_constants, columns, 8)
 INTERFACE_OFFSET(cell_survey_constants, rows, 12)
+INTERFACE_OFFSET(cell_survey_constants, part, 16)
 
 // Least values over the texels of a cell: the negative of what is largest.
 struct survey_extremes {

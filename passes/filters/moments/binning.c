@@ -45,6 +45,15 @@ static void add_level(const filter_context *context, uint32_t index,
     passes_reduced_map_dispatch(&moments->map, pass, level, 1, &dispatch);
 }
 
+/// Samples of level 0, of whose texels each covers four of the base maps': none, where these have
+/// fewer points.
+static uint32_t finest_samples(const device_material *material, uint32_t samples) {
+    const bool interpolated = passes_device_map_is_interpolated(material, MAP_NORMAL) ||
+                              passes_device_map_is_interpolated(material, MAP_WIDTH);
+    const uint32_t points = 4 * (interpolated ? TEXEL_POINTS : 1);
+    return samples * samples < points ? samples : 0;
+}
+
 moment_map passes_moment_binning(const filter_context *context, uint32_t index,
                                  const moment_partition *partition, lobe_resource bins,
                                  lobe_format format) {
@@ -54,7 +63,8 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
     const uint32_t samples = passes_texel_samples(context);
     moment_map result = {.format = format, .bins = bins};
     result.map = passes_seen_map_declare(context, index, name, format, layers, samples == 0);
-    add_level(context, index, partition, &result, 0, 0);
+    add_level(context, index, partition, &result, 0,
+              finest_samples(&context->scene->materials[index], samples));
     for (uint32_t level = 1; samples > 0 && level < result.map.levels; level++)
         add_level(context, index, partition, &result, level, samples);
     if (samples == 0)

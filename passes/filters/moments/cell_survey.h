@@ -14,8 +14,9 @@ typedef struct cell_survey {
 cell_survey passes_moment_cell_survey_declare(const filter_context *context, uint32_t material);
 
 /// Adds the pass that surveys the material's lobes. It runs when texels change. `bright_texels`: it
-/// also finds the largest texel of the colour maps.
+/// also finds the largest texel of the colour maps. `part`: of each cell it reads at most so many
+/// texels along each axis [1, SURVEY_PART]; 0: all.
 void passes_moment_cell_survey(const filter_context *context, uint32_t material, bool bright_texels,
-                               cell_survey *survey);
+                               uint32_t part, cell_survey *survey);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "passes/context/material_specialisation.h"
 #include "passes/filters/moments/cell_survey.h"
+#include "passes/maps/tile_knobs.h"
 #include "shaders/interface/moment_refit.h"
 
 static void read_inputs(const filter_context *context, uint32_t index,
@@ -52,7 +53,8 @@ lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
     cell_survey survey = passes_moment_cell_survey_declare(context, index);
     if (request->keeps && lobe_graph_has_content(context->graph, bins))
         return bins;
-    passes_moment_cell_survey(context, index, request->bright_texels, &survey);
+    const uint32_t part = passes_texel_samples(context) > 0 ? SURVEY_PART : 0;
+    passes_moment_cell_survey(context, index, request->bright_texels, part, &survey);
     const struct refit_constants constants = {survey.cells, survey.lobe_count, partition->points,
                                               partition->bins};
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_refit");

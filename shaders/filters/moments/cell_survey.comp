@@ -3,10 +3,12 @@
 
 // What moment_refit must know of a material's lobes: the extremes of those of all texels, and a
 // sample of them, one group for each cell of the lobe grid. Reads all texels: what few of them
-// have, a sample at regular distances misses. Texels are drawn with a probability proportional to a
-// density, and stand for the inverse of it; as it grows with the squared distance from what is
-// usual, the sample also has what is rare (Bachem, Lucic, Krause 2018, Scalable k-Means Clustering
-// via Lightweight Coresets). All sums are in a fixed order.
+// have, a sample at regular distances misses. Of large maps that change often it may read a part,
+// one at random in each square of a grid: the time then does not grow with the map. Texels are
+// drawn with a probability proportional to a density, and stand for the inverse of it; as it grows
+// with the squared distance from what is usual, the sample also has what is rare (Bachem, Lucic,
+// Krause 2018, Scalable k-Means Clustering via Lightweight Coresets). All sums are in a fixed
+// order.
 
 #include "interface/moment_bins.h"
 #include "interface/moment_refit.h"
@@ -124,9 +126,9 @@ float density_of(grid_texel texel, usual_texel usual) {
 // ---------------------------------------------------------------------------------------------
 // The cell
 
-// Its texels, row by row.
+// Its texels, and how many of them are read along each axis, row by row.
 struct grid_cell {
-    uvec2 low, size;
+    uvec2 low, size, read;
 };
 
 grid_cell find_cell(uint index) {
@@ -134,15 +136,28 @@ grid_cell find_cell(uint index) {
     uvec2 size = uvec2(constants.width, constants.height);
     uvec2 count = uvec2(constants.columns, constants.rows);
     uvec2 low = position * size / count;
-    return grid_cell(low, (position + 1u) * size / count - low);
+    size = (position + 1u) * size / count - low;
+    return grid_cell(low, size, constants.part > 0u ? min(size, constants.part) : size);
 }
 
 uvec2 texel_of_cell(grid_cell cell, uint index) {
-    return cell.low + uvec2(index % cell.size.x, index / cell.size.x);
+    uvec2 position = uvec2(index % cell.read.x, index / cell.read.x);
+    if (cell.read == cell.size)
+        return cell.low + position;
+    uint number = gl_WorkGroupID.x * SURVEY_PART * SURVEY_PART + index;
+    vec2 place = vec2(hashed_number(2u * number), hashed_number(2u * number + 1u));
+    uvec2 begin = position * cell.size / cell.read;
+    uvec2 count = (position + 1u) * cell.size / cell.read - begin;
+    return cell.low + begin + min(uvec2(place * vec2(count)), count - 1u);
 }
 
-uint texel_count(grid_cell cell) {
-    return cell.size.x * cell.size.y;
+uint read_count(grid_cell cell) {
+    return cell.read.x * cell.read.y;
+}
+
+// How many texels one that is read stands for.
+float weight_of_read(grid_cell cell) {
+    return float(cell.size.x * cell.size.y) / float(read_count(cell));
 }
 
 vec3 direction_of_lobe(int i, grid_texel texel) {
@@ -204,7 +219,7 @@ grid_texel find_texel(uint thread, grid_cell cell, usual_texel usual, float targ
                       out float density) {
     grid_texel texel;
     float sum = 0.0;
-    for (uint i = thread; i < texel_count(cell) && sum <= target; i += THREADS) {
+    for (uint i = thread; i < read_count(cell) && sum <= target; i += THREADS) {
         texel = read_texel(texel_of_cell(cell, i));
         density = density_of(texel, usual);
         sum += density;
@@ -225,7 +240,7 @@ void draw_texels(uint thread, grid_cell cell, usual_texel usual, float sum) {
             continue;
         float density;
         grid_texel texel = find_texel(thread, cell, usual, target - begin, density);
-        write_lobes(draw, texel, part / density);
+        write_lobes(draw, texel, weight_of_read(cell) * part / density);
     }
 }
 
@@ -235,7 +250,7 @@ void main() {
     grid_cell cell = find_cell(gl_WorkGroupID.x);
     survey_extremes least = survey_extremes(vec4(1e30), vec4(1e30, 1e30, -1.0, 0.0));
     float sum = 0.0;
-    for (uint i = thread; i < texel_count(cell); i += THREADS) {
+    for (uint i = thread; i < read_count(cell); i += THREADS) {
         uvec2 position = texel_of_cell(cell, i);
         grid_texel texel = read_texel(position);
         sum += density_of(texel, usual);

@@ -48,12 +48,12 @@ static void take_findings(fixture *f) {
 
 /// Surveys the lobes of a scene of one square on both. The host's is freed with lobe_release.
 static lobe_survey *survey_both(fixture *f, lobe_scene *scene, const lobe_material *material,
-                                bool bright_texels) {
+                                bool bright_texels, uint32_t part) {
     scene_end_with_square(scene, material);
     pass_run run;
     pass_run_begin(&run, f, scene, "moments", (const char *[]){NULL});
     found.survey = passes_moment_cell_survey_declare(&run.context, 0);
-    passes_moment_cell_survey(&run.context, 0, bright_texels, &found.survey);
+    passes_moment_cell_survey(&run.context, 0, bright_texels, part, &found.survey);
     lobe_graph_read_back(f->graph, found.survey.extremes, (lobe_range){0});
     lobe_graph_read_back(f->graph, found.survey.lobes, (lobe_range){0});
     pass_run_execute(&run);
@@ -116,22 +116,38 @@ static void extremes_are_those_of_all_texels(void **state) {
         }
         *(i < MAPS ? &material.metallic_roughness_map : &material.width_map) =
             scene_add_map(scene, widths);
-        lobe_survey *survey = survey_both(*state, scene, &material, false);
+        lobe_survey *survey = survey_both(*state, scene, &material, false, 0);
         check_places(survey, maps[i % MAPS].name);
         assert_true(found.least[4] == low && found.least[5] == -high);
         lobe_release(survey);
     }
 }
 
-/// The weights add up to the texels; without a bias of the mean.
+/// Of a part, the range is within that of all texels, and nearly the same.
+static void check_reach(const lobe_survey *survey, const char *name) {
+    for (int axis = 0; axis < 2; axis++) {
+        const double all = survey->range.high[axis] - survey->range.low[axis];
+        const double low = (double)found.least[axis], high = -(double)found.least[2 + axis];
+        if (!(low > survey->range.low[axis] - 2e-6 && high < survey->range.high[axis] + 2e-6 &&
+              high - low > 0.8 * all - 1e-6))
+            fail_msg("%s, axis %d: [%g, %g] of [%g, %g]", name, axis, low, high,
+                     survey->range.low[axis], survey->range.high[axis]);
+    }
+}
+
+/// The weights add up to the texels; without a bias of the mean. Also where only a part of the
+/// texels is read.
 static void the_sample_stands_for_all_texels(void **state) {
-    for (int i = 0; i < MAPS; i++) {
+    for (int i = 0; i < 2 * MAPS; i++) {
+        const uint32_t part = i < MAPS ? 0 : 4;
+        const char *name = maps[i % MAPS].name;
+        const uint32_t width = maps[i % MAPS].width, height = maps[i % MAPS].height;
         lobe_scene *scene = scene_begin();
         lobe_material material = leaning_lobes();
-        const double texels = (double)maps[i].width * maps[i].height;
+        const double texels = (double)width * height;
         material.normal_map =
-            scene_add_map(scene, maps[i].make(maps[i].width, maps[i].height, maps[i].amount));
-        lobe_survey *survey = survey_both(*state, scene, &material, false);
+            scene_add_map(scene, maps[i % MAPS].make(width, height, maps[i % MAPS].amount));
+        lobe_survey *survey = survey_both(*state, scene, &material, false, part);
         double mean[2] = {0}, expected[2] = {0}, total = 0;
         for (uint32_t k = 0; k < found.survey.lobe_count; k++)
             mean[k % 2] += (double)found.lobes[k][3] * (double)found.lobes[k][0] / texels;
@@ -141,10 +157,12 @@ static void the_sample_stands_for_all_texels(void **state) {
         }
         for (int k = 0; k < 2; k++)
             if (!(fabs(mean[k] - expected[k] / total) < 0.02))
-                fail_msg("%s: the mean place of lobe %d is %g instead of %g", maps[i].name, k,
-                         mean[k], expected[k] / total);
+                fail_msg("%s: the mean place of lobe %d is %g instead of %g", name, k, mean[k],
+                         expected[k] / total);
         if (!(fabs(found.total / texels - 1) < (texels <= CELLS ? 1e-4 : 0.05)))
-            fail_msg("%s: %g lobes stand for %g texels", maps[i].name, found.total, texels);
+            fail_msg("%s: %g lobes stand for %g texels", name, found.total, texels);
+        if (part > 0 && maps[i % MAPS].make != one_deviating)
+            check_reach(survey, name);
         lobe_release(survey);
     }
 }
@@ -157,7 +175,7 @@ static void what_is_rare_is_seen(void **state) {
     ((float *)widths.texels)[4 * 77777 + 1] = 0.2f;
     material.normal_map = scene_add_map(scene, one_deviating(400, 300, 1));
     material.metallic_roughness_map = scene_add_map(scene, widths);
-    lobe_release(survey_both(*state, scene, &material, false));
+    lobe_release(survey_both(*state, scene, &material, false, 0));
     double steep = 0, smooth = 0, usual = INFINITY;
     for (uint32_t k = 0; k < found.survey.lobe_count; k++)
         usual = fmin(usual, -(double)found.lobes[k][2]);
@@ -178,7 +196,7 @@ static void bright_texels_are_found(void **state) {
         lobe_image colours = constant_map(33, 40, 0.5f, 0.5f, 0.5f);
         ((float *)colours.texels)[4 * 1000 + 2] = i > 0 ? 7 : 0.75f;
         material.specular_map = scene_add_map(scene, colours);
-        lobe_release(survey_both(*state, scene, &material, i < 2));
+        lobe_release(survey_both(*state, scene, &material, i < 2, 0));
         assert_true(-found.least[6] == (i == 1 ? 7.0f : 1.0f));
     }
 }
