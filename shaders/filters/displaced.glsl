@@ -7,12 +7,16 @@
 // Microfacets are those of the relief's facets, whose normals are kept in bins; the maps' normals
 // count only for half-vector lobes and for materials without a relief, which are shaded as by
 // `toksvig`.
+//
+// Where a pixel sees less than a cell of the map's finest level, a ray finds the facet that it
+// sees, with the heights' own shadows.
 
 #include "shading/averaged_maps.glsl"
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/displacement/facet_bins.glsl"
 #include "filters/displaced/relief_surface.glsl"
+#include "filters/displaced/seen_relief.glsl"
 #include "lib/light/cube_texel.glsl"
 
 const bool BIN_COLOUR = false;
@@ -24,47 +28,113 @@ layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 
-layout(LOBE_DESCRIPTOR(33)) uniform sampler2DArray transfer_map;
-layout(LOBE_DESCRIPTOR(34), std140) uniform closure_block {
+layout(LOBE_DESCRIPTOR(36)) uniform sampler2DArray transfer_map;
+layout(LOBE_DESCRIPTOR(37), std140) uniform closure_block {
     transfer_closure_constants closure;
 };
-layout(LOBE_DESCRIPTOR(35)) uniform sampler2DArray facet_map;
+layout(LOBE_DESCRIPTOR(38)) uniform sampler2DArray facet_map;
 
 // Whether the relief's facets mirror light.
-bool has_facets() {
-    return RELIEF && MODEL == MODEL_MICROFACET;
-}
+const bool FACETS = RELIEF && MODEL == MODEL_MICROFACET;
+// Whether pixels may see single facets. Displaced triangles are drawn where these are.
+const bool NEAR = RELIEF && MAGNIFIED && !DISPLACED;
 
 const uint CHANNELS = COLOURED ? 3u : 1u;
 const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
 const uint FIRST_LAYERS = TRANSFER_FIRST_LAYERS(ORDER);
 const uint FURTHER_LAYERS = TRANSFER_FURTHER_LAYERS(ORDER);
-const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS : FIRST_LAYERS;
+// The visible area is last.
+const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
+                             : (FACETS ? FIRST_LAYERS : FURTHER_LAYERS);
 
-// What a pixel's lights share. Sums over the map's functions are written as sums over the
-// polynomials that these consist of, so that a light only needs its polynomials.
-struct relief_footprint {
-    vec3 viewer;
-    // Light towards the viewer, by the light's polynomials, of each channel: a white relief's (or
-    // the coloured one's) at once, and what it gets from other facets as well.
+// Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
+const float LEAST_LIT = 0.05;
+
+// Light towards a viewer, by the light's polynomials, of each channel: a white relief's (or the
+// coloured one's) at once, and what it gets from other facets as well. Sums over the map's
+// functions are written as sums over the polynomials that these consist of, so that a light only
+// needs its polynomials.
+struct reflected_form {
     float direct[3][16];
     float indirect[3][16];
-    float area[16]; // that is seen of the facets, by the viewer's polynomials
-    vec3 colour;    // the mean diffuse colour, if it varies
-    float visible;  // the area that the viewer sees, over the map's mean of it
-    float seen;     // of the facets' area that faces the viewer
+    float seen; // the area that the viewer sees of the facets
+};
+
+// The facet that a pixel sees.
+struct near_facet {
+    float share; // 0: the pixel sees many
+    relief_hit hit;
+    surface_point surface;
+    base_material base;
+};
+
+// What a pixel's lights share.
+struct relief_footprint {
+    vec3 viewer;
+    reflected_form form; // over the area that is seen
+    float area[16];      // that is seen of the facets, by the viewer's polynomials
+    vec3 colour;         // the mean diffuse colour, if it varies
+    float visible;       // the area that the viewer sees, over the map's mean of it
+    float seen;          // of the facets' area that faces the viewer
     light_sum lights[4];
     float shone_on[4]; // of the facets' area that faces the light
+    near_facet near;
 };
 relief_footprint drawn;
 
+vec2 transfer_size() {
+    return 2.0 * vec2(textureSize(transfer_map, 0).xy);
+}
+
 // Quads lie between the centres of texels, half a texel further than these.
 map_area transfer_area(surface_point surface) {
-    vec2 size = 2.0 * vec2(textureSize(transfer_map, 0).xy);
+    vec2 size = transfer_size();
     map_area area = area_of(MAP_HEIGHT, size, surface);
     area.centre -= 0.5 / size;
     return area;
 }
+
+// ---------------------------------------------------------------------------------------------
+// A facet from near
+
+// A pixel of one texel and less sees a facet; from two texels on, cells.
+float share_of_facet(surface_point surface) {
+    vec2 size = transfer_size();
+    footprint pixel = footprint_of(map_coordinates(MAP_HEIGHT, surface.coordinates_dx, 0.0) * size,
+                                   map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0) * size);
+    return clamp(1.0 - log2(max(pixel.major_axis, 1e-6)) - knobs.level_bias, 0.0, 1.0);
+}
+
+void find_near_facet(surface_point surface) {
+    drawn.near.share = share_of_facet(surface);
+    if (drawn.near.share == 0.0)
+        return;
+    drawn.near.hit = seen_point(surface);
+    if (!drawn.near.hit.found) { // beyond the longest walk
+        drawn.near.share = 0.0;
+        return;
+    }
+    drawn.near.surface = surface_at(surface, drawn.near.hit.position);
+    drawn.near.base = filtered_material(drawn.near.surface,
+                                        relief_from_tangent(drawn.near.hit.normal),
+                                        lobe_area(drawn.near.surface));
+}
+
+bool facet_sees(vec3 direction) {
+    vec3 towards = relief_from_tangent(direction);
+    return dot(drawn.near.hit.normal, towards) > 0.0 &&
+           sees_sky(drawn.near.hit.position, towards);
+}
+
+// Of a light, without what reaches the facet from others.
+vec3 reflected_by_near_facet(vec3 outgoing, vec3 incoming) {
+    base_material base = drawn.near.base;
+    return facet_sees(incoming) ? evaluate_base_material(base, base.normal, outgoing, incoming)
+                                : vec3(0.0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Cells
 
 vec4 transfer_layers[LAYERS];
 
@@ -122,15 +192,16 @@ float relative_area(float area, float polynomials[16]) {
 }
 
 // Adds the closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
-void close(float viewer[16]) {
+void close(inout reflected_form form, float viewer[16]) {
     float cosine = INVERSE_PI * TRANSFER_COSINE * viewer[0];
     for (uint i = 0u; i < 16u; ++i)
-        drawn.indirect[0][i] += cosine * closure.lacking[i / 4u][i % 4u];
-    drawn.indirect[0][0] += TRANSFER_COSINE * (INVERSE_PI * product_with(closure.lacking, viewer) -
-                                               INVERSE_PI * closure.lost * cosine);
+        form.indirect[0][i] += cosine * closure.lacking[i / 4u][i % 4u];
+    form.indirect[0][0] += TRANSFER_COSINE * (INVERSE_PI * product_with(closure.lacking, viewer) -
+                                              INVERSE_PI * closure.lost * cosine);
 }
 
-void gather_channel(uint channel, float viewer[16], float functions[ORDER]) {
+void gather_channel(inout reflected_form form, uint channel, float viewer[16],
+                    float functions[ORDER]) {
     uint first = channel == 0u ? 0u : 4u * (FIRST_LAYERS + (channel - 1u) * FURTHER_LAYERS);
     float direct[ORDER];
     for (uint i = 0u; i < ORDER; ++i) {
@@ -138,45 +209,135 @@ void gather_channel(uint channel, float viewer[16], float functions[ORDER]) {
         for (uint j = 0u; j < ORDER; ++j)
             direct[i] += entry_of_matrix(first, i, j) * functions[j];
     }
-    in_polynomials(direct, drawn.direct[channel]);
+    in_polynomials(direct, form.direct[channel]);
     for (uint i = 0u; i < 16u; ++i)
-        drawn.indirect[channel][i] = 0.0;
+        form.indirect[channel][i] = 0.0;
     for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
         for (uint j = 0u; j < TRANSFER_INDIRECT; ++j)
-            drawn.indirect[channel][i] += entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer[j];
+            form.indirect[channel][i] += entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer[j];
     drawn.colour[channel] = entry(first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
 }
 
-void fill_hidden(float seen, float viewer[16]) {
-    float mean = max(product_with(closure.visible, viewer), 1e-6);
-    float lacking = max(LEAST_VISIBLE - max(seen / mean, 0.0), 0.0);
-    if (lacking == 0.0)
-        return;
-    for (uint channel = 0u; channel < CHANNELS; ++channel)
-        drawn.direct[channel][0] += lacking * drawn.viewer.z * INVERSE_PI * TRANSFER_COSINE *
-                                    (COLOURED ? drawn.colour[channel] : 1.0);
+// What a white relief reflects of a white sky is the area that is seen of it. Of a few facets, the
+// area by the map's functions may be far from it, and then radiance would be, too.
+float white_light(reflected_form form) {
+    float sum = 0.0;
+    for (uint i = 0u; i < 16u; ++i)
+        sum += TRANSFER_INTEGRAL[i] * (form.direct[0][i] + form.indirect[0][i]);
+    return sum;
 }
 
-void gather_relief(surface_point surface) {
-    drawn.viewer = viewer_of(surface);
-    fetch_transfer(transfer_area(surface));
-    float viewer[16], functions[ORDER], area[ORDER], seen = 0.0;
-    transfer_polynomials(drawn.viewer, viewer);
+float visible_area(float functions[ORDER]) {
+    float sum = 0.0;
+    for (uint k = 0u; k < ORDER; ++k)
+        sum += entry(TRANSFER_ENTRIES(ORDER) + k) * functions[k];
+    return sum;
+}
+
+void in_functions(float polynomials[16], out float functions[ORDER]) {
     for (uint k = 0u; k < ORDER; ++k) {
         functions[k] = 0.0;
         for (uint i = 0u; i < 16u; ++i)
-            functions[k] += function_factor(k, i) * viewer[i];
-        area[k] = entry(TRANSFER_ENTRIES(ORDER) + k);
-        seen += area[k] * functions[k];
+            functions[k] += function_factor(k, i) * polynomials[i];
     }
+}
+
+// `viewer`: a direction's polynomials, or a sum of such.
+reflected_form form_of(float viewer[16]) {
+    float functions[ORDER];
+    in_functions(viewer, functions);
+    reflected_form form;
     for (uint channel = 0u; channel < CHANNELS; ++channel)
-        gather_channel(channel, viewer, functions);
+        gather_channel(form, channel, viewer, functions);
     if (!COLOURED)
-        close(viewer);
-    drawn.visible = relative_area(seen, viewer);
-    fill_hidden(seen, viewer);
-    if (has_facets())
+        close(form, viewer);
+    form.seen = COLOURED ? visible_area(functions) : white_light(form);
+    return form;
+}
+
+// N is symmetric: half of it is what light the viewer's side gets from other facets, and half what
+// these get from the light that shines on it. To viewers everywhere, a facet shows the first alone,
+// 1^T b o^T, which is 2 N less 1^T o b^T, a multiple of 1^T C.
+void leave_what_arrives(inout reflected_form form, uint channel) {
+    float indirect = 0.0, direct = 0.0;
+    for (uint i = 0u; i < 16u; ++i)
+        indirect += TRANSFER_INTEGRAL[i] * form.indirect[channel][i];
+    for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
+        direct += TRANSFER_INTEGRAL[i] * form.direct[channel][i];
+    float part = 1.0 / max(direct, LEAST_LIT);
+    for (uint i = 0u; i < 16u; ++i)
+        form.indirect[channel][i] *= 1.0 + max(part * direct, 0.0);
+    for (uint i = 0u; i < TRANSFER_INDIRECT && direct > 0.0; ++i)
+        form.indirect[channel][i] -= part * indirect * form.direct[channel][i];
+}
+
+// To viewers everywhere: the mean over their cosines.
+reflected_form form_of_all() {
+    float viewers[16];
+    for (uint i = 0u; i < 16u; ++i)
+        viewers[i] = INVERSE_PI * TRANSFER_INTEGRAL[i];
+    reflected_form form = form_of(viewers);
+    for (uint channel = 0u; channel < CHANNELS; ++channel)
+        leave_what_arrives(form, channel);
+    float lacking = max(LEAST_LIT - form.seen, 0.0);
+    for (uint channel = 0u; channel < CHANNELS; ++channel)
+        form.indirect[channel][0] +=
+            lacking * INVERSE_PI * TRANSFER_COSINE *
+            (COLOURED ? drawn.colour[channel] * drawn.colour[channel] : 1.0);
+    form.seen += lacking;
+    return form;
+}
+
+// drawn.form: so much of what it is, of light at once and of light between facets, and of another.
+void mix_form(vec2 factors, reflected_form other, vec2 of_other) {
+    for (uint channel = 0u; channel < CHANNELS; ++channel) {
+        for (uint i = 0u; i < 16u; ++i) {
+            drawn.form.direct[channel][i] = factors.x * drawn.form.direct[channel][i] +
+                                            of_other.x * other.direct[channel][i];
+            drawn.form.indirect[channel][i] = factors.y * drawn.form.indirect[channel][i] +
+                                              of_other.y * other.indirect[channel][i];
+        }
+    }
+}
+
+// Divides by the area that is seen. Where that is small, a cell shows what it shows to others, and
+// so does a facet; `lit`: by light at once, for which no ray is followed.
+void divide_form(bool lit) {
+    float lacking = max(LEAST_VISIBLE * drawn.viewer.z - drawn.form.seen, 0.0);
+    float near = NEAR ? drawn.near.share : 0.0;
+    float scale = (1.0 - near) / (drawn.form.seen + lacking);
+    if (lacking == 0.0 && near == 0.0) {
+        mix_form(vec2(scale), drawn.form, vec2(0.0));
+        return;
+    }
+    reflected_form of_all = form_of_all();
+    float hidden = lacking * scale;
+    mix_form(vec2(scale), of_all, vec2(hidden + (lit ? near : 0.0), hidden + near) / of_all.seen);
+}
+
+void gather_relief(surface_point surface, bool lit) {
+    drawn.viewer = viewer_of(surface);
+    map_area at = transfer_area(surface);
+    if (NEAR) {
+        find_near_facet(surface);
+        if (drawn.near.share > 0.0)
+            at.centre += drawn.near.share *
+                         map_coordinates(MAP_HEIGHT, drawn.near.surface.coordinates -
+                                                         surface.coordinates, 0.0);
+    }
+    fetch_transfer(at);
+    float viewer[16];
+    transfer_polynomials(drawn.viewer, viewer);
+    drawn.form = form_of(viewer);
+    if (FACETS) {
+        float functions[ORDER], area[ORDER];
+        in_functions(viewer, functions);
+        for (uint k = 0u; k < ORDER; ++k)
+            area[k] = entry(TRANSFER_ENTRIES(ORDER) + k);
+        drawn.visible = relative_area(visible_area(functions), viewer);
         in_polynomials(area, drawn.area);
+    }
+    divide_form(lit);
 }
 
 // Of light between facets, by albedo: sums of powers, each less than the one before by the same
@@ -194,8 +355,8 @@ struct reflected_light {
 // Of light of each channel, by its polynomials.
 void reflect_channel(inout reflected_light reflected, uint channel, float light[16]) {
     uint of_map = COLOURED ? channel : 0u;
-    reflected.direct[channel] = product(drawn.direct[of_map], light);
-    reflected.indirect[channel] = product(drawn.indirect[of_map], light);
+    reflected.direct[channel] = product(drawn.form.direct[of_map], light);
+    reflected.indirect[channel] = product(drawn.form.indirect[of_map], light);
 }
 
 reflected_light reflect_light(vec3 incoming) {
@@ -220,11 +381,10 @@ vec3 tint_of(base_material base, surface_point surface) {
     vec3 tint = VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0);
     if (!MAGNIFIED)
         return tint;
-    vec2 size = 2.0 * vec2(textureSize(transfer_map, 0).xy);
     float level = area_over(map_coordinates(MAP_HEIGHT, surface.coordinates, 1.0),
                             map_coordinates(MAP_HEIGHT, surface.coordinates_dx, 0.0),
-                            map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0), size, true)
-                      .level;
+                            map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0),
+                            transfer_size(), true).level;
     vec3 found = (base.diffuse + 0.01) / (tint * drawn.colour + 0.01);
     return tint * mix(min(found, 4.0), vec3(1.0), min(level, 1.0));
 }
@@ -233,6 +393,8 @@ vec3 tint_of(base_material base, surface_point surface) {
 // and meets other facets is taken to go on as if it were diffuse.
 vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
                       reflected_light reflected) {
+    if (NEAR && drawn.near.share > 0.0)
+        base.diffuse = mix(base.diffuse, drawn.near.base.diffuse, drawn.near.share);
     vec3 sum;
     if (COLOURED) {
         vec3 tint = tint_of(base, surface);
@@ -242,7 +404,7 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
         vec3 share = indirect_share(albedo) + indirect_share(mirrored_part(base));
         sum = albedo * reflected.direct + share * reflected.indirect;
     }
-    return max(sum, 0.0) / (drawn.viewer.z * drawn.visible);
+    return max(sum, 0.0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -334,8 +496,8 @@ vec3 mirrored_by_facets(base_material base, vec3 fresnel, vec3 outgoing, vec3 in
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (has_diffuse())
-        gather_relief(surface);
-    if (has_facets())
+        gather_relief(surface, false);
+    if (FACETS)
         gather_facets(fetched, surface, incoming);
 }
 
@@ -346,7 +508,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 lobes, fresnel = vec3(0.0);
-    if (has_facets()) {
+    if (FACETS) {
         fresnel = fresnel_schlick(base.specular, vec3(1.0),
                                   dot(incoming, half_vector(incoming, surface.outgoing)));
         lobes = mirrored_by_facets(fetched.base, fresnel, surface.outgoing, incoming, light);
@@ -355,7 +517,11 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         mirroring.diffuse = vec3(0.0);
         lobes = evaluate_base_material(mirroring, fetched.mean_normal, surface.outgoing, incoming);
     }
-    return lobes + diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(incoming));
+    vec3 of_cells = diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(incoming));
+    if (!NEAR || drawn.near.share == 0.0)
+        return lobes + of_cells;
+    return (1.0 - drawn.near.share) * lobes + of_cells +
+           drawn.near.share * reflected_by_near_facet(surface.outgoing, incoming);
 }
 
 #ifdef ENVIRONMENT
@@ -418,6 +584,13 @@ vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
     return sum / (drawn.viewer.z * drawn.visible);
 }
 
+// What it mirrors of other facets is lost here: it is part of the light between these.
+vec3 mirrored_by_near_facet(surface_point surface) {
+    return facet_sees(reflect(-surface.outgoing, drawn.near.base.normal))
+               ? reflect_base_specular(drawn.near.surface, drawn.near.base)
+               : vec3(0.0);
+}
+
 vec3 reflect_environment(appearance fetched, surface_point surface) {
     base_material base = widened_material(fetched);
     if (!has_diffuse())
@@ -426,12 +599,14 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
     white.diffuse = vec3(1.0);
     float light[3][16];
     light_of_environment(surface, light);
-    gather_relief(surface);
+    gather_relief(surface, true);
     reflected_light reflected;
     for (uint channel = 0u; channel < 3u; ++channel)
         reflect_channel(reflected, channel, light[channel]);
-    return (has_facets() ? reflect_facets_of_relief(fetched, surface)
-                         : reflect_base_specular(surface, base)) +
-           diffuse_radiance(base, let_through(surface, white), surface, reflected);
+    vec3 lobes = FACETS ? reflect_facets_of_relief(fetched, surface)
+                        : reflect_base_specular(surface, base);
+    if (NEAR && drawn.near.share > 0.0)
+        lobes = mix(lobes, mirrored_by_near_facet(surface), drawn.near.share);
+    return lobes + diffuse_radiance(base, let_through(surface, white), surface, reflected);
 }
 #endif

@@ -10,7 +10,7 @@
 //
 // A material without a relief is shaded as `direct` does.
 
-#include "filters/displaced/height_field.glsl"
+#include "filters/displaced/seen_relief.glsl"
 #include "lib/number/hash.glsl"
 #include "shading/base_sample.glsl"
 #include "shading/unfiltered_maps.glsl"
@@ -25,9 +25,6 @@ layout(constant_id = SPECIALISE_PATH_VERTICES) const uint PATH_VERTICES = 32;
 
 // From this vertex on, paths end at random.
 const uint FIRST_ROULETTE = 4u;
-// The viewer is at least so high above the carrier, as a cosine.
-const float LEAST_VIEW = 0.005;
-
 // A vertex of a path.
 struct path_vertex {
     relief_hit hit;
@@ -45,11 +42,6 @@ struct appearance {
     float lobe_count;
     float level;
 };
-
-// The relief's y runs against the tangent frame's.
-vec3 relief_from_tangent(vec3 direction) {
-    return vec3(direction.x, -direction.y, direction.z);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Random numbers
@@ -76,18 +68,6 @@ vec2 next_pair(inout random_numbers numbers) {
 // ---------------------------------------------------------------------------------------------
 // Vertices
 
-// The surface with the texture coordinates of a point of the relief.
-surface_point surface_at(surface_point surface, vec3 position) {
-    vec2 centre = map_coordinates(MAP_HEIGHT, surface.coordinates, 1.0);
-    vec2 moved = (position.xy + 0.5) / vec2(relief_size()) - centre;
-    moved -= floor(moved + 0.5);
-    mat2 transform = transpose(mat2(material.transforms[2 * MAP_HEIGHT].xy,
-                                    material.transforms[2 * MAP_HEIGHT + 1].xy));
-    vec2 offset = determinant(transform) != 0.0 ? inverse(transform) * moved : vec2(0.0);
-    surface.coordinates += vec4(offset, offset);
-    return surface;
-}
-
 path_vertex vertex_at(surface_point surface, relief_hit hit, vec3 outgoing) {
     path_vertex vertex;
     vertex.hit = hit;
@@ -97,16 +77,6 @@ path_vertex vertex_at(surface_point surface, relief_hit hit, vec3 outgoing) {
     surface.curvature = vec3(0.0);
     vertex.base = unfiltered_material(surface_at(surface, hit.position), vec3(0.0, 0.0, 1.0));
     return vertex;
-}
-
-// Where the viewer meets the relief.
-relief_hit seen_point(surface_point surface) {
-    vec3 outgoing = relief_from_tangent(surface.outgoing);
-    outgoing.z = max(outgoing.z, LEAST_VIEW);
-    vec2 place =
-        fract(map_coordinates(MAP_HEIGHT, surface.coordinates, 1.0)) * vec2(relief_size()) - 0.5;
-    float rise = max(largest_height() - mean_height(), 0.0) + 1e-3;
-    return trace_relief(vec3(place, mean_height()) + outgoing * (rise / outgoing.z), -outgoing);
 }
 
 // Reflectance times cosine at a vertex.

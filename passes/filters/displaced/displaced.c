@@ -88,13 +88,24 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
     return passes_kept_transfer_prepare(context, index, &kind, slot);
 }
 
+/// What shading reads of a material's relief.
+typedef struct drawn_relief {
+    transfer_map transfer;
+    relief relief; ///< if `near`
+    bool near;     ///< pixels may see less than a cell
+} drawn_relief;
+
 /// false: not all of it is made yet.
 static bool make_transfer(const filter_context *context, uint32_t index, const void *prepared,
-                          transfer_map *transfer, filtered_appearance *appearance) {
+                          drawn_relief *drawn, filtered_appearance *appearance) {
     const device_material *material = &context->scene->materials[index];
     const transfer_kind kind = kind_of(context, material);
-    if (!passes_kept_transfer_build(context, index, &kind, prepared, transfer))
+    transfer_map *transfer = &drawn->transfer;
+    if (!passes_kept_transfer_build(context, index, &kind, prepared, drawn->near, transfer,
+                                    &drawn->relief))
         return false;
+    if (drawn->near)
+        appearance->bytes += drawn->relief.bytes;
     appearance->bytes +=
         passes_reduced_map_bytes(&transfer->map, kind.format) +
         (kind.normals ? passes_reduced_map_bytes(&transfer->facets, kind.format) : 0);
@@ -115,34 +126,40 @@ static transfer_map no_transfer(const filter_context *context) {
                               lobe_graph_upload(context->graph, "no transfer", &none, sizeof none)};
 }
 
+/// Whether pixels may see less than a cell of the finest level.
+static bool sees_facets(const filter_context *context, uint32_t index) {
+    const device_material *material = &context->scene->materials[index];
+    const device_map *heights = &material->maps[MAP_HEIGHT];
+    return passes_has_relief(material) &&
+           passes_may_be_magnified(context, index, MAP_HEIGHT, heights->width, heights->height,
+                                   passes_knob_value(context, &passes_knob_probes),
+                                   passes_knob_value(context, &passes_knob_bias));
+}
+
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
     passes_parameter_averaging_build(context, instance, prepared, appearance);
     const uint32_t index = context->scene->instances[instance].material;
     const device_material *material = &context->scene->materials[index];
-    transfer_map transfer;
-    const bool has_relief = passes_has_relief(material) &&
-                            make_transfer(context, index, prepared, &transfer, appearance);
+    drawn_relief drawn = {.near = sees_facets(context, index)};
+    const bool has_relief =
+        passes_has_relief(material) && make_transfer(context, index, prepared, &drawn, appearance);
     if (!has_relief)
-        transfer = no_transfer(context);
+        drawn.transfer = no_transfer(context);
     const lobe_sampler sampler = {.texels = LOBE_SAMPLE_LINEAR,
                                   .levels = LOBE_SAMPLE_LINEAR,
                                   .maximum_anisotropy =
                                       (float)passes_knob_value(context, &passes_knob_anisotropy)};
-    passes_appearance_bind(appearance, "transfer_map", transfer.map.resource, sampler);
-    passes_appearance_bind(appearance, "facet_map", transfer.facets.resource, sampler);
-    passes_appearance_bind(appearance, "closure_block", transfer.closure, (lobe_sampler){0});
+    passes_appearance_bind(appearance, "transfer_map", drawn.transfer.map.resource, sampler);
+    passes_appearance_bind(appearance, "facet_map", drawn.transfer.facets.resource, sampler);
+    passes_appearance_bind(appearance, "closure_block", drawn.transfer.closure, (lobe_sampler){0});
+    passes_relief_bind(has_relief && drawn.near ? &drawn.relief : NULL, context->graph, appearance);
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
-    const bool coloured = has_relief && passes_has_coloured_relief(material);
-    const device_map *heights = &material->maps[MAP_HEIGHT];
-    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED, coloured);
-    passes_appearance_specialise(
-        appearance, SPECIALISE_TRANSFER_MAGNIFIED,
-        coloured &&
-            passes_may_be_magnified(context, index, MAP_HEIGHT, heights->width, heights->height,
-                                    passes_knob_value(context, &passes_knob_probes),
-                                    passes_knob_value(context, &passes_knob_bias)));
+    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED,
+                                 has_relief && passes_has_coloured_relief(material));
+    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_MAGNIFIED,
+                                 has_relief && drawn.near);
 }
 
 static const char *ignores(const lobe_material *material) {

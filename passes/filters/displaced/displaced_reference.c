@@ -14,16 +14,6 @@ static const filter_knob bounces_knob = {
 };
 static const filter_knob *const knobs[] = {&bounces_knob, NULL};
 
-/// What a shader that reads no relief has bound.
-static void bind_nothing(lobe_graph *graph, filtered_appearance *appearance) {
-    static const struct height_field_constants none;
-    const lobe_resource nothing = lobe_graph_upload(graph, "no relief", &none, sizeof none);
-    static const char *const names[] = {"height_field_block", "height_block",
-                                        "height_extent_block"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        passes_appearance_bind(appearance, names[i], nothing, (lobe_sampler){0});
-}
-
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
     (void)prepared;
@@ -31,13 +21,11 @@ static void build(const filter_context *context, size_t instance, const void *pr
     const bool has_relief = passes_has_relief(&context->scene->materials[index]);
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     if (!has_relief) {
-        bind_nothing(context->graph, appearance);
+        passes_relief_bind(NULL, context->graph, appearance);
         return;
     }
     const relief relief = passes_relief(context, index, true);
-    passes_appearance_bind(appearance, "height_field_block", relief.block, (lobe_sampler){0});
-    passes_appearance_bind(appearance, "height_block", relief.heights, (lobe_sampler){0});
-    passes_appearance_bind(appearance, "height_extent_block", relief.extent, (lobe_sampler){0});
+    passes_relief_bind(&relief, context->graph, appearance);
     appearance->bytes = relief.bytes;
     appearance->base_texels = (uint64_t)relief.constants.width * relief.constants.height;
 }

@@ -83,10 +83,12 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
 }
 
 bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
-                                const transfer_kind *kind, const void *prepared,
-                                transfer_map *transfer) {
+                                const transfer_kind *kind, const void *prepared, bool near,
+                                transfer_map *transfer, relief *relief) {
     const stored_content *stored = passes_kept_stored(context, prepared);
     if (stored) {
+        if (near)
+            *relief = passes_relief(context, index, true);
         *transfer = passes_transfer_map_declare(context, index, kind);
         passes_restoring(context->graph, stored, 0, &transfer->map);
         if (kind->normals)
@@ -96,7 +98,8 @@ bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
     }
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
-    *transfer = passes_transfer_map(context, index, kind, parts, in_parts);
+    *relief = passes_relief(context, index, near || in_parts);
+    *transfer = passes_transfer_map(context, index, kind, relief, parts, in_parts);
     const lobe_resource images[] = {transfer->map.resource, transfer->facets.resource};
     return passes_kept_built(context, prepared, images, transfer->closure);
 }

@@ -11,9 +11,10 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
                                          const transfer_kind *kind, void **slot);
 
 /// Adds the passes that make the transfer of a material with a relief, or those that restore it.
-/// false: not all of it is made yet. `prepared`: what the slot holds.
+/// false: not all of it is made yet. `prepared`: what the slot holds. `relief`: what it is made
+/// from; passes of every frame read it if `near`.
 bool passes_kept_transfer_build(const filter_context *context, uint32_t material,
-                                const transfer_kind *kind, const void *prepared,
-                                transfer_map *transfer);
+                                const transfer_kind *kind, const void *prepared, bool near,
+                                transfer_map *transfer, relief *relief);
 
 #endif

@@ -121,3 +121,18 @@ void passes_relief_read(const relief *relief, lobe_pass *pass) {
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "height_extent_block", .resource = relief->extent});
 }
+
+void passes_relief_bind(const relief *relief, lobe_graph *graph, filtered_appearance *appearance) {
+    static const struct height_field_constants none;
+    static const char *const names[] = {"height_field_block", "height_block",
+                                        "height_extent_block"};
+    lobe_resource bound[3];
+    if (relief) {
+        bound[0] = relief->block;
+        bound[1] = relief->heights;
+        bound[2] = relief->extent;
+    } else
+        bound[0] = bound[1] = bound[2] = lobe_graph_upload(graph, "no relief", &none, sizeof none);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        passes_appearance_bind(appearance, names[i], bound[i], (lobe_sampler){0});
+}

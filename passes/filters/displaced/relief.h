@@ -24,4 +24,7 @@ relief passes_relief(const filter_context *context, uint32_t material, bool reta
 /// Binds what shaders/filters/displaced/height_field.glsl reads.
 void passes_relief_read(const relief *relief, lobe_pass *pass);
 
+/// The same for shading. NULL: a shader that reads no relief.
+void passes_relief_bind(const relief *relief, lobe_graph *graph, filtered_appearance *appearance);
+
 #endif

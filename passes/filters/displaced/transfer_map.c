@@ -416,7 +416,8 @@ static void add_map(const filter_context *context, transfer_build *build, transf
 }
 
 transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
-                                 const transfer_kind *kind, uint32_t parts, bool in_parts) {
+                                 const transfer_kind *kind, const relief *relief, uint32_t parts,
+                                 bool in_parts) {
     const device_material *material = &context->scene->materials[index];
     if (!passes_transfer_fits(material, kind)) {
         fail_size(context, material, kind);
@@ -427,7 +428,7 @@ transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
         .kind = kind,
         .material = index,
         .in_parts = in_parts,
-        .relief = passes_relief(context, index, in_parts),
+        .relief = *relief,
     };
     build.facets = 2 * build.relief.constants.width * build.relief.constants.height;
     transfer_map result = passes_transfer_map_declare(context, index, kind);

@@ -2,6 +2,7 @@
 #define PASSES_FILTERS_DISPLACED_TRANSFER_MAP_H
 
 #include "passes/context/filter.h"
+#include "passes/filters/displaced/relief.h"
 #include "passes/maps/kept/kept_file.h"
 #include "passes/maps/level_reduction.h"
 
@@ -38,16 +39,18 @@ uint32_t passes_transfer_images(const device_material *material, const transfer_
 /// The parts of the work: bands of facet_transfer, bands of facet_links, then all the rest.
 uint32_t passes_transfer_part_count(const device_material *material, const transfer_kind *kind);
 
-/// Adds the passes that make it for a material with a relief: those of the relief, basis_cells,
-/// transfer_basis, facet_transfer, facet_links, facet_colours, facet_bounces, cell_transfer,
-/// facet_normals, level_reduction and transfer_closure. They run when the height map or its scale
-/// changes; when colours do only if `coloured`, and then without facet_transfer and facet_links. A
-/// map whose facets a buffer cannot hold fails the frame.
+/// Adds the passes that make it for a material with a relief: basis_cells, transfer_basis,
+/// facet_transfer, facet_links, facet_colours, facet_bounces, cell_transfer, facet_normals,
+/// level_reduction and transfer_closure. They run when the height map or its scale changes; when
+/// colours do only if `coloured`, and then without facet_transfer and facet_links. A map whose
+/// facets a buffer cannot hold fails the frame.
 /// `parts`: those that are added, from the first on; UINT32_MAX: all. Without the last one, the map
 /// has no content. `in_parts`: what later parts need is kept between frames, about 40 bytes a
 /// facet.
+/// `relief`: retained if `in_parts`.
 transfer_map passes_transfer_map(const filter_context *context, uint32_t material,
-                                 const transfer_kind *kind, uint32_t parts, bool in_parts);
+                                 const transfer_kind *kind, const relief *relief, uint32_t parts,
+                                 bool in_parts);
 
 /// Declares the maps alone.
 transfer_map passes_transfer_map_declare(const filter_context *context, uint32_t material,
