@@ -5,6 +5,7 @@
 
 #include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
+#include "shaders/interface/environment/reflected_lobes.h"
 #include "shaders/interface/specialisation.h"
 
 const lobe_sampler passes_broad_reflection_sampler = {
@@ -12,7 +13,8 @@ const lobe_sampler passes_broad_reflection_sampler = {
 
 bool passes_reflects_broadly(const lobe_material *material) {
     return material->model == LOBE_MATERIAL_MICROFACET && material->metallic > 0 &&
-           (material->roughness > BROAD_LEAST_ROUGHNESS || material->normal_map.image >= 0);
+           (material->roughness > REFLECTED_LOBES_LEAST_ROUGHNESS ||
+            material->normal_map.image >= 0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -103,16 +105,15 @@ static void solve(int count, double matrix[BROAD_ORDERS][BROAD_ORDERS],
             right[i][k] /= matrix[i][i];
 }
 
-/// What the harmonics of an order contribute to the coefficients of its functions, where `ridge`
-/// times the squares of these is added to the squared error.
-static void fit_order(int count, double rows[BROAD_ORDERS][ROWS], double ridge,
+/// What the harmonics of an order contribute to the coefficients of its functions.
+static void fit_order(int count, double rows[BROAD_ORDERS][ROWS],
                       double right[BROAD_ORDERS][ROWS]) {
     double products[BROAD_ORDERS][BROAD_ORDERS];
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < ROWS; k++)
             right[i][k] = rows[i][k];
         for (int j = 0; j < count; j++) {
-            products[i][j] = i == j ? ridge : 0;
+            products[i][j] = 0;
             for (int k = 0; k < ROWS; k++)
                 products[i][j] += rows[i][k] * rows[j][k];
         }
@@ -129,15 +130,13 @@ static struct broad_harmonics known_harmonics(void) {
         for (int degree = order; degree <= BROAD_DEGREE; degree++)
             known.scale[harmonic++] = (float)scale_of_harmonic(order, degree);
         const int count = BROAD_ORDERS - order;
-        double rows[BROAD_ORDERS][ROWS], free[BROAD_ORDERS][ROWS], held[BROAD_ORDERS][ROWS];
+        double rows[BROAD_ORDERS][ROWS], fit[BROAD_ORDERS][ROWS];
         for (int i = 0; i < count; i++)
             harmonics_of_function(&rule, order, i, rows[i]);
-        fit_order(count, rows, 0, free);
-        fit_order(count, rows, BROAD_RIDGE, held);
+        fit_order(count, rows, fit);
         for (int i = 0; i < count; i++, function++) {
             for (int k = 0; k < ROWS; k++) {
-                known.coefficient[0][12 * function + k] = (float)free[i][k];
-                known.coefficient[1][12 * function + k] = (float)held[i][k];
+                known.coefficient[12 * function + k] = (float)fit[i][k];
                 known.harmonic[12 * function + k] = (float)rows[i][k];
             }
         }

@@ -9,6 +9,7 @@
 #include "passes/environment/hemisphere_moments.h"
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
+#include "passes/environment/reflected_lobes.h"
 #include "passes/maps/filtered_maps.h"
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
@@ -58,7 +59,7 @@ static bool uses_ggx(const filter_context *context) {
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
-/// Whether a material's light is that of a lobe and of moments.
+/// Whether a material's light is that of several lobes, or of a lobe and of moments.
 static bool reflects_broadly(const filter_context *context, const environment_light *light,
                              const lobe_material *material) {
     return light->present && light->method == ENVIRONMENT_PREFILTERED &&
@@ -92,13 +93,15 @@ static void build_albedo(const filter_context *context, environment_light *light
     }
 }
 
-static void build_broad_table(const filter_context *context, environment_light *light,
-                              lobe_distribution distribution, lobe_distribution masking) {
-    lobe_resource *table = &light->broad[distribution][masking];
-    if (!table->version)
-        *table = passes_broad_reflection(
-            context->graph, distribution, masking,
-            (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
+static void build_reflection_tables(const filter_context *context, environment_light *light,
+                                    lobe_distribution distribution, lobe_distribution masking) {
+    if (light->broad[distribution][masking].version)
+        return;
+    light->broad[distribution][masking] = passes_broad_reflection(
+        context->graph, distribution, masking,
+        (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
+    light->lobes[distribution][masking] =
+        passes_reflected_lobes(context->graph, distribution, masking);
 }
 
 /// `source`: what the irradiance comes from.
@@ -111,10 +114,10 @@ static void build_broad_reflection(const filter_context *context, environment_li
             continue;
         if (!light->moments.version)
             light->moments = passes_hemisphere_moments(context->graph, source);
-        build_broad_table(context, light, material->distribution, material->distribution);
+        build_reflection_tables(context, light, material->distribution, material->distribution);
         if (context->filter->slopes)
-            build_broad_table(context, light, LOBE_DISTRIBUTION_BECKMANN,
-                              slope_masking(context, material->distribution));
+            build_reflection_tables(context, light, LOBE_DISTRIBUTION_BECKMANN,
+                                    slope_masking(context, material->distribution));
     }
 }
 
@@ -371,11 +374,17 @@ passes_environment_light_bind_material(const environment_light *light,
         return count;
     bindings[count++] = bind_table("broad_reflection_table", light->broad[own][own],
                                    passes_broad_reflection_sampler, context, material);
+    bindings[count++] = bind_table("reflected_lobes_table", light->lobes[own][own],
+                                   passes_reflected_lobes_sampler, context, material);
     bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
                                    passes_hemisphere_moments_sampler, context, material);
-    if (slopes)
-        bindings[count++] = bind_table("slope_broad_reflection_table",
-                                       light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
-                                       passes_broad_reflection_sampler, context, material);
+    if (!slopes)
+        return count;
+    bindings[count++] = bind_table("slope_broad_reflection_table",
+                                   light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
+                                   passes_broad_reflection_sampler, context, material);
+    bindings[count++] =
+        bind_table("slope_reflected_lobes_table", light->lobes[LOBE_DISTRIBUTION_BECKMANN][masking],
+                   passes_reflected_lobes_sampler, context, material);
     return count;
 }

@@ -42,8 +42,9 @@ typedef struct environment_light {
     /// Directional albedo by the distribution of microfacets and that of their masking; none where
     /// no material needs it.
     lobe_resource albedo[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];
-    /// What rough microfacets gather of the light, by the same, and the moments that they gather
-    /// with; none where no material does.
+    /// The lobes that microfacets reflect, by the same; what rough ones gather of the light, and
+    /// the moments that they gather with; none where no material does.
+    lobe_resource lobes[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];
     lobe_resource broad[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT], moments;
 } environment_light;
 
@@ -86,7 +87,7 @@ void passes_environment_light_specialise(const environment_light *light,
                                          const lobe_material *material, specialisation_list *list);
 
 /// Most bindings of a material.
-#define ENVIRONMENT_MATERIAL_BINDINGS 5
+#define ENVIRONMENT_MATERIAL_BINDINGS 7
 
 /// Binds the tables of a material's reflection for its draws; returns how many bindings there are.
 size_t passes_environment_light_bind_material(const environment_light *light,

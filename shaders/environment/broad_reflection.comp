@@ -132,8 +132,8 @@ void harmonics_of_lobe(reflection_lobe lobe, out float values[BROAD_HARMONICS]) 
 }
 
 // The coefficients of the functions that are nearest to harmonics in least squares, and what is
-// left of these. `free`: how little a ridge keeps them small [0, 1].
-void fit_functions(float free, inout float values[BROAD_HARMONICS],
+// left of these.
+void fit_functions(inout float values[BROAD_HARMONICS],
                    out float coefficients[BROAD_FUNCTIONS]) {
     int first = 0, j = 0;
     for (int m = 0; m < BROAD_ORDERS; ++m) {
@@ -141,9 +141,7 @@ void fit_functions(float free, inout float values[BROAD_HARMONICS],
         for (int i = 0; i < functions; ++i) {
             float sum = 0.0;
             for (int k = 0; k < count; ++k)
-                sum += mix(known.coefficient[1][12 * (j + i) + k],
-                           known.coefficient[0][12 * (j + i) + k], free) *
-                       values[first + k];
+                sum += known.coefficient[12 * (j + i) + k] * values[first + k];
             coefficients[j + i] = sum;
         }
         for (int i = 0; i < functions; ++i)
@@ -168,24 +166,19 @@ float total_of(float coefficients[BROAD_FUNCTIONS]) {
 }
 
 // `part`: 0 for F_0, 1 for F_90. `lobe_left`: what the functions leave of the lobe, with the
-// coefficients `lobe_functions`. `smooth_share`: of light as a Lambert surface gathers it.
+// coefficients `lobe_functions`.
 void store_part(int part, ivec2 texel, float albedo, float lobe_left[BROAD_HARMONICS],
-                float lobe_functions[BROAD_FUNCTIONS], float lobe_square, float diffuse_share,
-                float full, float free) {
+                float lobe_functions[BROAD_FUNCTIONS], float lobe_square) {
     float values[BROAD_HARMONICS], coefficients[BROAD_FUNCTIONS];
     for (int k = 0; k < BROAD_HARMONICS; ++k)
         values[k] = reflected[k][part] / max(albedo, 1e-10);
-    fit_functions(free, values, coefficients);
+    fit_functions(values, coefficients);
     float weight =
         product(values, lobe_left) / (product(lobe_left, lobe_left) + 1e-4 * lobe_square);
     weight = clamp(weight, 0.0, 1.5);
     for (int j = 0; j < BROAD_FUNCTIONS; ++j)
         coefficients[j] -= weight * lobe_functions[j];
     coefficients[0] += (1.0 - weight - total_of(coefficients)) * INVERSE_PI;
-    weight = mix(1.0 - diffuse_share, weight, full);
-    for (int j = 0; j < BROAD_FUNCTIONS; ++j)
-        coefficients[j] *= full;
-    coefficients[0] += (1.0 - full) * diffuse_share * INVERSE_PI;
     imageStore(broad_reflection, ivec3(texel, 3 * part),
                vec4(coefficients[0], coefficients[1], coefficients[2], coefficients[3]));
     imageStore(broad_reflection, ivec3(texel, 3 * part + 1),
@@ -225,18 +218,13 @@ void main() {
         return;
     vec2 albedo = reflected[0] / known.scale[0];
     reflection_lobe lobe = lobe_of_reflection(DISTRIBUTION == DISTRIBUTION_GGX, cosine, roughness);
-    float diffuse_share = lobe.diffuse_share;
     lobe = mixed_lobe(lobe, lobe_of_grazing_reflection(cosine, roughness),
-                      albedo.y / max(albedo.x * (1.0 - diffuse_share) + albedo.y, 1e-10));
-    lobe = completed_lobe(lobe, cosine, roughness, 1.0);
+                      albedo.y / max(albedo.x * (1.0 - lobe.diffuse_share) + albedo.y, 1e-10));
+    lobe = completed_lobe(lobe, cosine, 1.0);
     float lobe_left[BROAD_HARMONICS], lobe_functions[BROAD_FUNCTIONS];
     harmonics_of_lobe(lobe, lobe_left);
-    float free =
-        smoothstep(BROAD_LEAST_FREE_ROUGHNESS, BROAD_ENTIRELY_FREE_ROUGHNESS, roughness);
     float lobe_square = product(lobe_left, lobe_left);
-    fit_functions(free, lobe_left, lobe_functions);
-    float full = smoothstep(BROAD_LEAST_ROUGHNESS, BROAD_FULL_ROUGHNESS, roughness);
-    store_part(0, texel, albedo.x, lobe_left, lobe_functions, lobe_square, diffuse_share, full,
-               free);
-    store_part(1, texel, albedo.y, lobe_left, lobe_functions, lobe_square, 0.0, full, free);
+    fit_functions(lobe_left, lobe_functions);
+    store_part(0, texel, albedo.x, lobe_left, lobe_functions, lobe_square);
+    store_part(1, texel, albedo.y, lobe_left, lobe_functions, lobe_square);
 }

@@ -114,6 +114,22 @@ vec3 prefiltered_radiance(vec3 direction, prefiltered_lobe lobe) {
     return radiance;
 }
 
+// A lobe sharper than the finest level blends towards the unfiltered radiance: how far.
+float unfiltered_share(uint kind, float width, float concentration) {
+    return radiance_share(finest_concentration(kind, width), environment_width(), concentration);
+}
+
+// Mean radiance over a round lobe about a unit vector of the tangent frame.
+vec3 round_radiance(surface_point surface, uint kind, vec3 axis, float concentration) {
+    vec3 direction = to_environment(surface, axis);
+    float width = float(textureSize(prefiltered_environment, 0).x);
+    vec3 radiance = prefiltered_radiance(direction, levels_of_lobe(kind, width, concentration));
+    float unfiltered = unfiltered_share(kind, width, concentration);
+    if (unfiltered > 0.0)
+        radiance = mix(radiance, textureLod(environment_cube, direction, 0.0).rgb, unfiltered);
+    return radiance;
+}
+
 // An elongated lobe as a row of round ones.
 vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) {
     direction_lobe lobe = principal_lobe(incoming);
@@ -131,10 +147,7 @@ vec3 probed_radiance(surface_point surface, uint kind, direction_lobe incoming) 
         sum += place.y * prefiltered_radiance(to_environment(surface, direction), levels);
         weights += place.y;
     }
-    // Lobes sharper than the finest level blend towards the unfiltered radiance.
-    float unfiltered = row.count > 1.0 ? 0.0
-                                       : radiance_share(finest_concentration(kind, width),
-                                                    environment_width(), concentration);
+    float unfiltered = row.count > 1.0 ? 0.0 : unfiltered_share(kind, width, concentration);
     vec3 radiance = textureLod(environment_cube, to_environment(surface, lobe.axis), 0.0).rgb;
     return mix(sum / weights, radiance, unfiltered);
 }

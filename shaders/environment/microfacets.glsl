@@ -6,6 +6,7 @@
 #include "environment/broad_reflection.glsl"
 #include "environment/irradiance.glsl"
 #include "environment/lobes.glsl"
+#include "environment/reflected_lobes.glsl"
 #include "lib/microfacet/reflection_lobe.glsl"
 
 // A lobe is broader than base lobes of this parameter because the normals vary. If both are
@@ -190,15 +191,25 @@ vec3 below_surface(surface_point surface, vec3 normal) {
     return (0.5 - 0.5 * normal.z) * mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
 }
 
-// How much of it is found as broad reflection [0, 1]: nothing of dielectrics, whose light is mostly
-// diffuse, nor of narrow lobes, nor where normals vary more than microfacets do, for a polynomial
-// about their mean ends at none of their horizons.
-float share_of_broad_reflection(vec3 f0, float roughness, float variance_of_normals) {
-    if (!BROAD_REFLECTION || roughness <= BROAD_LEAST_ROUGHNESS)
-        return 0.0;
+// Shares of the ways in which reflected light is found, [0, 1] each; the rest is a lobe.
+struct reflection_shares {
+    float lobes;      // as a sum of lobes
+    float polynomial; // as a lobe and a polynomial over the hemisphere
+};
+
+// Dielectrics, whose light is mostly diffuse, reflect a lobe, and so do narrow lobes and those of
+// normals that vary more than microfacets do: a sum about their mean ends at none of their
+// horizons.
+reflection_shares shares_of_reflection(vec3 f0, float roughness, float variance_of_normals) {
+    if (!BROAD_REFLECTION || roughness <= REFLECTED_LOBES_LEAST_ROUGHNESS)
+        return reflection_shares(0.0, 0.0);
     float alpha = roughness * roughness;
     float even = 1.0 - smoothstep(0.05, 0.3, variance_of_normals / (alpha * alpha));
-    return even * smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
+    float whole = even * smoothstep(REFLECTED_LOBES_LEAST_ROUGHNESS,
+                                    REFLECTED_LOBES_FULL_ROUGHNESS, roughness) *
+                  smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
+    float polynomial = smoothstep(BROAD_LEAST_ROUGHNESS, BROAD_FULL_ROUGHNESS, roughness);
+    return reflection_shares(whole * (1.0 - polynomial), whole * polynomial);
 }
 
 // What surfaces reflect to where they are seen from: a lobe, and what comes from everywhere.
@@ -222,17 +233,10 @@ facing_reflection broad_facing_reflection(surface_point surface, vec3 normal, ui
 }
 
 // The lobe that is fitted to what microfacets reflect, and light as rough surfaces gather it.
-vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
-                    float parameter, bool spread_out) {
+// `broad`: how much of it is a lobe and a polynomial instead [0, 1].
+vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
+                     vec4 albedo, float roughness, float broad, bool spread_out) {
     float cosine = dot(normals.axis, surface.outgoing);
-    if (cosine <= 0.0)
-        return vec3(0.0);
-    float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
-    float variance = spread_out ? dot(normals.first, normals.first) +
-                                      dot(normals.second, normals.second)
-                                : 0.0;
-    float broad = share_of_broad_reflection(f0, roughness, variance);
-    vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
     bool tails = kind == DISTRIBUTION_GGX ||
                  (BROAD_REFLECTION && kind == DISTRIBUTION_VMF && DISTRIBUTION == DISTRIBUTION_GGX);
     reflection_lobe base = lobe_of_reflection(tails, cosine, roughness);
@@ -244,7 +248,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     base = mixed_lobe(base, lobe_of_grazing_reflection(cosine, roughness),
                       3.0 * albedo.y / max(mixed.r + mixed.g + mixed.b, 1e-10));
     if (broad > 0.0)
-        base = completed_lobe(base, cosine, roughness, broad);
+        base = completed_lobe(base, cosine, broad);
     direction_lobe own = incoming_lobe(base, normals.axis, surface.outgoing), incoming = own;
     float resultant = 1.0;
     if (spread_out) {
@@ -268,7 +272,32 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     vec3 sum = reflection.gathered +
                share * reflection.lobe *
                    lobe_radiance(surface, half_vector_distribution(normals, kind), incoming);
-    return scattering_scale(albedo, f0) * max(sum, 0.0);
+    return max(sum, 0.0);
+}
+
+vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
+                    float parameter, bool spread_out) {
+    float cosine = dot(normals.axis, surface.outgoing);
+    if (cosine <= 0.0)
+        return vec3(0.0);
+    float roughness = roughness_from_parameter(DISTRIBUTION, parameter);
+    float variance = spread_out ? dot(normals.first, normals.first) +
+                                      dot(normals.second, normals.second)
+                                : 0.0;
+    reflection_shares shares = shares_of_reflection(f0, roughness, variance);
+    vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
+    vec3 sum = vec3(0.0);
+    if (shares.lobes > 0.0) {
+        bool cut = HORIZON != HORIZON_IGNORED && has_map(MAP_NORMAL);
+        sum = shares.lobes * (f0 * albedo.x + albedo.y) *
+              light_of_reflected_lobes(surface, normals.axis, kind, f0, roughness, 0.5 * variance,
+                                       cut);
+    }
+    float rest = 1.0 - shares.lobes;
+    if (rest > 0.0)
+        sum += rest * reflect_as_lobe(surface, normals, kind, f0, albedo, roughness,
+                                      shares.polynomial / rest, spread_out);
+    return scattering_scale(albedo, f0) * sum;
 }
 
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,

@@ -17,10 +17,10 @@
 // an albedo of 1.
 #define BROAD_REFLECTION_SIZE   32
 #define BROAD_REFLECTION_LAYERS 6
-// Smoother surfaces reflect a lobe and Lambert's law (lib/microfacet/reflection_lobe.glsl); from
+// Smoother surfaces reflect a sum of lobes (interface/environment/reflected_lobes.h); from
 // BROAD_FULL_ROUGHNESS on, what is said here.
-#define BROAD_LEAST_ROUGHNESS 0.3f
-#define BROAD_FULL_ROUGHNESS  0.5f
+#define BROAD_LEAST_ROUGHNESS 0.7f
+#define BROAD_FULL_ROUGHNESS  0.8f
 // Of dielectrics nothing is found in this way, from BROAD_FULL_F0 on all.
 #define BROAD_LEAST_F0 0.05f
 #define BROAD_FULL_F0  0.1f
@@ -30,21 +30,15 @@
 #define BROAD_DEGREE    8
 #define BROAD_HARMONICS 30 // 9 + 8 + 7 + 6
 
-// Functions cannot show what narrow lobes leave: below the greater roughness their coefficients are
-// kept small, by a ridge that is added to the squared error.
-#define BROAD_RIDGE                   0.03f
-#define BROAD_LEAST_FREE_ROUGHNESS    0.6f
-#define BROAD_ENTIRELY_FREE_ROUGHNESS 0.8f
-
 // What the pass needs to know of them (storage buffer, std430). The functions of one order are
 // combinations of the harmonics of that order only.
 struct broad_harmonics {
     float scale[32]; // of each harmonic, with its weight
     // For each function twelve numbers: what the harmonics of its order contribute to its
-    // coefficient, freely and with a ridge, and its own harmonics.
-    float coefficient[2][120];
+    // coefficient, and its own harmonics.
+    float coefficient[120];
     float harmonic[120];
 };
-INTERFACE_SIZE(broad_harmonics, 1568)
+INTERFACE_SIZE(broad_harmonics, 1088)
 
 #endif

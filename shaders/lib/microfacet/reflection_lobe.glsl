@@ -105,14 +105,12 @@ reflection_lobe mixed_lobe(reflection_lobe first, reflection_lobe second, float 
 
 // Of a lobe that a polynomial over the hemisphere completes (environment/broad_reflection.comp):
 // what it has to show is narrower, and nearer to the horizon. `completed`: how much of it [0, 1].
-reflection_lobe completed_lobe(reflection_lobe lobe, float outgoing_cosine, float roughness,
-                               float completed) {
+reflection_lobe completed_lobe(reflection_lobe lobe, float outgoing_cosine, float completed) {
     float cosine = clamp(outgoing_cosine, 0.0, 1.0);
-    float share = completed * smoothstep(0.4, 0.6, roughness);
     reflection_lobe result = lobe;
-    result.angle = min(lobe.angle + 0.16 * share * sqrt(1.0 - cosine * cosine), 1.5);
-    result.along *= 1.0 - 0.3 * share;
-    result.across *= 1.0 - 0.3 * share;
+    result.angle = min(lobe.angle + 0.16 * completed * sqrt(1.0 - cosine * cosine), 1.5);
+    result.along *= 1.0 - 0.3 * completed;
+    result.across *= 1.0 - 0.3 * completed;
     return result;
 }
 

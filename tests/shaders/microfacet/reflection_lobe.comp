@@ -21,7 +21,7 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     case 1:
         return numbers_of(lobe_of_grazing_reflection(a.y, a.z));
     case 3:
-        return numbers_of(completed_lobe(lobe_of(a), b.x, b.y, b.z));
+        return numbers_of(completed_lobe(lobe_of(a), b.x, b.y));
     default:
         return numbers_of(mixed_lobe(lobe_of(a), lobe_of(b), c.x));
     }
