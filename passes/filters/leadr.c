@@ -12,7 +12,8 @@ static const char *const base_planes[] = {"facets", "surface", NULL};
 static const filter_knob base_plane_knob = {
     .description = {.name = "base_plane",
                     .summary = "the plane over which the roughness of base lobes is added: that of "
-                               "the mean facet or, as in the paper, the surface's",
+                               "the mean facet or, as in the paper, the surface's, and GGX as "
+                               "Beckmann's lobe of equal width",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = base_planes},
@@ -32,7 +33,8 @@ static const char *ignores(const lobe_material *material) {
         return "its lobes are merged into one that covers their spread, in their mean colour; they "
                "are assumed to include masking";
     if (material->distribution == LOBE_DISTRIBUTION_GGX)
-        return "GGX becomes a Beckmann lobe of equal width, without its tails";
+        return "in light from an environment, GGX becomes a Beckmann lobe of equal width, without "
+               "its tails";
     return NULL;
 }
 

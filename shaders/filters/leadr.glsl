@@ -4,9 +4,9 @@
 // surface that the maps represent, although a normal map's own texels never hide each other.
 //
 // The covariance of the base lobes is added over the plane of the mean normal, to first order, so
-// that narrow lobes match the base material. The paper adds it over the surface's plane, which
-// makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees
-// (BASE_PLANE_SURFACE).
+// that narrow lobes match the base material; GGX keeps its tails (leadr/base_tails.glsl). The paper
+// adds Beckmann lobes over the surface's plane, which makes the lobe of a tilted footprint too
+// narrow: 13 % too bright at 16 degrees (BASE_PLANE_SURFACE).
 
 #pragma variants CLOSED_SURFACE WAVES
 
@@ -18,9 +18,13 @@
 
 #include "shading/slope_maps.glsl"
 #include "filters/leadr/drawn_slope.glsl"
+#include "filters/leadr/base_tails.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
+
+// Of base lobes: the paper has Beckmann's alone.
+const uint BASE_TERMS = BASE_PLANE == BASE_PLANE_FACETS ? TAIL_TERMS : 1u;
 
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     leadr_knobs filter_knobs;
@@ -32,11 +36,13 @@ float height_scale() {
 
 struct footprint_lobe {
     slope_distribution facets; // texels' slopes: facets of the Lambert part
-    slope_distribution slopes; // base lobes included: facets that mirror
-    // Of displaced geometry: which part of a slope's distance from the mean is undrawn relief, so
-    // that the facet's area depends on it.
-    float undrawn_facets, undrawn_slopes;
-    slope_distribution shadowing_facets, shadowing_slopes; // of what shadows them
+    slope_distribution slopes; // base lobes included, without their tails: facets that mirror
+    vec3 texels, base;         // covariances of both parts of the latter
+    // Of displaced geometry: variance of the texels' slopes that triangles draw, so that the
+    // facets' area does not depend on it, and what shadows them.
+    float drawn;
+    vec2 shadowing_mean;
+    vec3 shadowing_covariance;
 };
 
 #include "shading/slope_appearance.glsl"
@@ -51,10 +57,10 @@ vec3 base_covariance(slope_moments moments) {
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     moments = fetch_moments(area, surface);
-    slope_distribution facets = slope_distribution_of(moments.mean, moments.covariance);
-    slope_distribution slopes =
-        slope_distribution_of(moments.mean, moments.covariance + base_covariance(moments));
-    return footprint_lobe(facets, slopes, 1.0, 1.0, facets, slopes);
+    vec3 base = base_covariance(moments);
+    return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
+                          slope_distribution_of(moments.mean, moments.covariance + base),
+                          moments.covariance, base, 0.0, moments.mean, moments.covariance);
 }
 
 // Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
@@ -71,28 +77,60 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
     float level = level_of_vertices(surface);
     float share = clamp(level - area.level, 0.0, 1.0);
     slope_moments between = fetch_level(area.centre, level, surface);
-    vec3 base = base_covariance(moments);
-    float own = trace(moments.covariance), undrawn = trace(between.covariance);
     vec2 mean = mean_on_triangles(moments, between, share, surface);
     lobe.facets.mean = lobe.slopes.mean = mean;
-    lobe.undrawn_facets = min(undrawn / max(own, 1e-12), 1.0);
-    lobe.undrawn_slopes = min((undrawn + trace(base)) / max(own + trace(base), 1e-12), 1.0);
-    vec2 shadowing = mix(mean, surface.drawn_slope, share);
-    lobe.shadowing_facets = slope_distribution_of(shadowing, between.covariance);
-    lobe.shadowing_slopes = slope_distribution_of(shadowing, between.covariance + base);
+    lobe.drawn = max(trace(moments.covariance) - trace(between.covariance), 0.0);
+    lobe.shadowing_mean = mix(mean, surface.drawn_slope, share);
+    lobe.shadowing_covariance = between.covariance;
 }
 
-slope_distribution undrawn_slopes(slope_distribution slopes, float part) {
-    return slope_distribution(slopes.mean, part * slopes.root);
+// Which part of a slope's distance from the mean is undrawn relief.
+float undrawn_part(footprint_lobe lobe, vec3 covariance) {
+    return 1.0 - lobe.drawn / max(trace(covariance), max(lobe.drawn, 1e-12));
+}
+
+// Lambda of the facets that mirror, about any mean. `undrawn`: only of what triangles do not draw.
+// `terms`: of the base lobes.
+float lambda_of_mirrors(footprint_lobe lobe, vec2 mean, vec3 texels, bool undrawn, uint terms,
+                        vec3 direction) {
+    float height = height_above_slope(mean, direction), sum = 0.0;
+    for (uint i = 0u; i < terms; ++i) {
+        vec3 covariance = texels + term_spread(i, terms) * lobe.base;
+        float part = undrawn ? undrawn_part(lobe, covariance) : 1.0;
+        sum += term_part(i, terms) *
+               lambda_of_variance(height, part * part * variance_along(covariance, direction.xy));
+    }
+    return sum;
 }
 
 // The part of the facets that both directions see.
-float visibility(slope_distribution slopes, float undrawn, slope_distribution shadowing,
-                 vec3 incoming, vec3 outgoing) {
+float visibility_of_mirrors(footprint_lobe lobe, uint terms, vec3 incoming, vec3 outgoing) {
+    vec2 mean = lobe.slopes.mean;
+    if (height_above_slope(mean, outgoing) <= 0.0 ||
+        height_above_slope(DISPLACED ? lobe.shadowing_mean : mean, incoming) <= 0.0)
+        return 0.0;
+    float seen = 1.0 + lambda_of_mirrors(lobe, mean, lobe.texels, DISPLACED, terms, outgoing);
     if (!DISPLACED)
-        return masking_shadowing_of_slopes(slopes, incoming, outgoing);
-    return masking_of_slopes(undrawn_slopes(slopes, undrawn), outgoing) *
-           shadowing_of_seen_slopes(shadowing, incoming, outgoing);
+        return 1.0 / (seen + lambda_of_mirrors(lobe, mean, lobe.texels, false, terms, incoming));
+    float facing = 1.0 + lambda_of_mirrors(lobe, lobe.shadowing_mean, lobe.shadowing_covariance,
+                                           false, terms, outgoing);
+    float hidden = lambda_of_mirrors(lobe, lobe.shadowing_mean, lobe.shadowing_covariance, false,
+                                     terms, incoming);
+    return facing / (seen * (facing + hidden));
+}
+
+slope_distribution undrawn_facets(footprint_lobe lobe) {
+    return slope_distribution(lobe.facets.mean,
+                              undrawn_part(lobe, lobe.texels) * lobe.facets.root);
+}
+
+float visibility_of_facets(footprint_lobe lobe, vec3 incoming, vec3 outgoing) {
+    if (!DISPLACED)
+        return masking_shadowing_of_slopes(lobe.facets, incoming, outgoing);
+    return masking_of_slopes(undrawn_facets(lobe), outgoing) *
+           shadowing_of_seen_slopes(
+               slope_distribution_of(lobe.shadowing_mean, lobe.shadowing_covariance), incoming,
+               outgoing);
 }
 
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
@@ -100,32 +138,34 @@ float visibility(slope_distribution slopes, float undrawn, slope_distribution sh
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!DIFFUSE || CLOSED)
         return;
-    float height = height_above_slope(fetched.lobe.facets.mean, surface.outgoing);
-    fetched.gathered = facet_sums(fetched.lobe.facets, fetched.lobe.undrawn_facets,
-                                  surface.outgoing, incoming) /
+    footprint_lobe lobe = fetched.lobe;
+    float height = height_above_slope(lobe.facets.mean, surface.outgoing);
+    fetched.gathered = facet_sums(lobe.facets, undrawn_part(lobe, lobe.texels), surface.outgoing,
+                                  incoming) /
                        max(height, COSINE_MINIMUM);
 }
 
 vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
-    footprint_lobe lobe = fetched.lobe;
-    float visible = visibility(lobe.facets, lobe.undrawn_facets, lobe.shadowing_facets, incoming,
-                               outgoing);
     return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
-                              visible * fetched.gathered[light]);
+                              visibility_of_facets(fetched.lobe, incoming, outgoing) *
+                                  fetched.gathered[light]);
 }
 
 // Eq. 17. D F/4 is of facets that are seen as large as they are.
 vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
-    float size = 1.0;
-    if (DISPLACED) {
-        vec2 slope = slope_of_normal(halfway);
-        size = facet_height(lobe.slopes.mean, slope, lobe.undrawn_slopes, outgoing) /
-               max(height_above_slope(slope, outgoing), COSINE_MINIMUM);
+    vec2 mean = lobe.slopes.mean, slope = slope_of_normal(halfway);
+    float facing = max(height_above_slope(slope, outgoing), COSINE_MINIMUM), distribution = 0.0;
+    for (uint i = 0u; i < BASE_TERMS; ++i) {
+        vec3 covariance = lobe.texels + term_spread(i, BASE_TERMS) * lobe.base;
+        float size = term_part(i, BASE_TERMS);
+        if (DISPLACED)
+            size *= facet_height(mean, slope, undrawn_part(lobe, covariance), outgoing) / facing;
+        distribution += size * distribution_of_slopes(slope_distribution_of(mean, covariance),
+                                                      halfway);
     }
-    return microfacet_specular(fresnel, size * distribution_of_slopes(lobe.slopes, halfway),
-                               visibility(lobe.slopes, lobe.undrawn_slopes, lobe.shadowing_slopes,
-                                          incoming, outgoing),
-                               height_above_slope(lobe.slopes.mean, outgoing));
+    return microfacet_specular(fresnel, distribution,
+                               visibility_of_mirrors(lobe, BASE_TERMS, incoming, outgoing),
+                               height_above_slope(mean, outgoing));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -248,6 +288,7 @@ vec3 sampled_slopes(surface_point surface, footprint_lobe lobe, vec3 f0) {
     float spacing = grid_spacing();
     float area = spacing * spacing * largest_variance(slopes);
     float height = height_above_slope(slopes.mean, surface.outgoing);
+    float undrawn = undrawn_part(lobe, lobe.texels + lobe.base);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (uint j = 0u; j < ENVIRONMENT_GRID; ++j) {
@@ -257,9 +298,8 @@ vec3 sampled_slopes(surface_point surface, footprint_lobe lobe, vec3 f0) {
             vec3 normal = normal_of_slope(slope);
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
-            float seen = facet_height(slopes.mean, slope, lobe.undrawn_slopes, surface.outgoing) *
-                         visibility(slopes, lobe.undrawn_slopes, lobe.shadowing_slopes, incoming,
-                                    surface.outgoing);
+            float seen = facet_height(slopes.mean, slope, undrawn, surface.outgoing) *
+                         visibility_of_mirrors(lobe, 1u, incoming, surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -289,7 +329,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
 // in Algorithm 2: it is unknown which part of the environment's light is shadowed.
 vec3 lambert_slopes(appearance fetched, surface_point surface) {
     slope_distribution facets = fetched.lobe.facets;
-    float undrawn = fetched.lobe.undrawn_facets;
+    float undrawn = undrawn_part(fetched.lobe, fetched.lobe.texels);
     vec3 sum = vec3(0.0);
     for (uint j = 0u; j < GRID; ++j) {
         for (uint k = 0u; k < GRID; ++k) {
@@ -302,7 +342,7 @@ vec3 lambert_slopes(appearance fetched, surface_point surface) {
     }
     float row = grid_weight();
     float height = height_above_slope(facets.mean, surface.outgoing);
-    float visible = masking_of_slopes(undrawn_slopes(facets, undrawn), surface.outgoing);
+    float visible = masking_of_slopes(undrawn_facets(fetched.lobe), surface.outgoing);
     return let_through(surface, fetched.filtered) * sum *
            (visible / (row * row * max(height, COSINE_MINIMUM)));
 }

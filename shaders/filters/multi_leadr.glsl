@@ -10,6 +10,7 @@
 #include "shading/slope_maps.glsl"
 #include "interface/moment_bins.h"
 #include "filters/leadr/drawn_slope.glsl"
+#include "filters/leadr/base_tails.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
@@ -23,10 +24,12 @@ float height_scale() {
     return filter_knobs.height;
 }
 
-// A Gaussian of texels' slopes; with base lobes, those of facets that mirror.
+// A Gaussian of texels' slopes; with base lobes, but without their tails, those of facets that
+// mirror.
 struct slope_lobe {
     float part;
     slope_distribution facets, slopes;
+    vec3 texels, base; // covariances of both parts of the latter
 };
 
 struct footprint_lobe {
@@ -66,7 +69,8 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
         slope_moments own = fetch_component(area, surface, i, part);
         vec3 base = flat_covariance_of_tilted(own.mean, own.base_variance);
         result.lobes[i] = slope_lobe(part, slope_distribution_of(own.mean, own.covariance),
-                                     slope_distribution_of(own.mean, own.covariance + base));
+                                     slope_distribution_of(own.mean, own.covariance + base),
+                                     own.covariance, base);
         whole += part;
         base_variance += part * own.base_variance;
         mean += part * own.mean;
@@ -113,19 +117,21 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
 // ---------------------------------------------------------------------------------------------
 // Masking
 
-float mean_height_above(slope_distribution slopes, vec3 direction) {
-    return mean_height(height_above_slope(slopes.mean, direction),
-                       slope_variance_along(slopes, direction.xy));
-}
-
-// 1 + Lambda of the whole mixture; `diffuse`: of the texels' facets, without base lobes. The
-// direction is above the mean plane.
-float area_ratio(appearance fetched, vec3 direction, bool diffuse) {
+// 1 + Lambda of the whole mixture, of the texels' facets (no terms) or of base lobes of some terms.
+// The direction is above the mean plane.
+float area_ratio(appearance fetched, vec3 direction, uint terms) {
     float area = 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         slope_lobe lobe = fetched.lobe.lobes[i];
-        area += lobe.part * (diffuse ? mean_height_above(lobe.facets, direction)
-                                     : mean_height_above(lobe.slopes, direction));
+        float height = height_above_slope(lobe.facets.mean, direction);
+        if (terms == 0u)
+            area += lobe.part *
+                    mean_height(height, slope_variance_along(lobe.facets, direction.xy));
+        for (uint j = 0u; j < terms; ++j) {
+            vec3 covariance = lobe.texels + term_spread(j, terms) * lobe.base;
+            area += lobe.part * term_part(j, terms) *
+                    mean_height(height, variance_along(covariance, direction.xy));
+        }
     }
     float height = height_above_slope(fetched.moments.mean, direction);
     return max(area / max(height, 1e-6), 1.0);
@@ -150,10 +156,10 @@ bool both_above(appearance fetched, vec3 incoming, vec3 outgoing) {
 }
 
 // The part of the surface that both directions see: Eq. 13.
-float mirror_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
+float mirror_visibility(appearance fetched, uint terms, vec3 incoming, vec3 outgoing) {
     return both_above(fetched, incoming, outgoing)
-               ? 1.0 / (area_ratio(fetched, incoming, false) +
-                        area_ratio(fetched, outgoing, false) - 1.0)
+               ? 1.0 / (area_ratio(fetched, incoming, terms) +
+                        area_ratio(fetched, outgoing, terms) - 1.0)
                : 0.0;
 }
 
@@ -162,8 +168,8 @@ float mirror_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
 float diffuse_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
     if (!both_above(fetched, incoming, outgoing))
         return 0.0;
-    float first = area_ratio(fetched, incoming, true) - 1.0;
-    float second = area_ratio(fetched, outgoing, true) - 1.0;
+    float first = area_ratio(fetched, incoming, 0u) - 1.0;
+    float second = area_ratio(fetched, outgoing, 0u) - 1.0;
     return 1.0 / (1.0 + max(first, second) +
                   height_independence(incoming, outgoing) * min(first, second));
 }
@@ -187,11 +193,17 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
 
 vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
     float distribution = 0.0;
-    for (uint i = 0u; i < BINS; ++i)
-        distribution += fetched.lobe.lobes[i].part *
-                        distribution_of_slopes(fetched.lobe.lobes[i].slopes, halfway);
+    for (uint i = 0u; i < BINS; ++i) {
+        slope_lobe lobe = fetched.lobe.lobes[i];
+        for (uint j = 0u; j < TAIL_TERMS; ++j) {
+            slope_distribution slopes = slope_distribution_of(
+                lobe.slopes.mean, lobe.texels + term_spread(j, TAIL_TERMS) * lobe.base);
+            distribution += lobe.part * term_part(j, TAIL_TERMS) *
+                            distribution_of_slopes(slopes, halfway);
+        }
+    }
     return microfacet_specular(fresnel, distribution,
-                               mirror_visibility(fetched, incoming, outgoing),
+                               mirror_visibility(fetched, TAIL_TERMS, incoming, outgoing),
                                height_above_slope(fetched.moments.mean, outgoing));
 }
 
@@ -242,7 +254,7 @@ vec3 sampled_lobe(appearance fetched, surface_point surface, slope_distribution 
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
             float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
-                         mirror_visibility(fetched, incoming, surface.outgoing);
+                         mirror_visibility(fetched, 1u, incoming, surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -293,7 +305,7 @@ vec3 reflect_footprint(appearance fetched, surface_point surface) {
     }
     if (DIFFUSE && height_above_slope(fetched.moments.mean, surface.outgoing) > 0.0)
         sum += let_through(surface, fetched.filtered) * diffuse /
-               (area_ratio(fetched, surface.outgoing, true) *
+               (area_ratio(fetched, surface.outgoing, 0u) *
                 divisor_height(fetched, surface.outgoing));
     return sum;
 }

@@ -26,7 +26,7 @@
 #define SPECIALISE_BASE_PLANE (SPECIALISE_FILTER + 11)
 
 #define BASE_PLANE_FACETS  0 // the plane of the mean normal
-#define BASE_PLANE_SURFACE 1 // the surface's, as in the paper
+#define BASE_PLANE_SURFACE 1 // the surface's, and GGX without its tails, as in the paper
 
 // Numbers of the knobs of `leadr` (see knobs.h).
 struct leadr_knobs {

@@ -51,7 +51,8 @@ static const char *ignores(const lobe_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes get their mean colour; they are assumed to include masking";
     if (material->distribution == LOBE_DISTRIBUTION_GGX)
-        return "GGX becomes Beckmann lobes of equal width, without its tails";
+        return "in light from an environment, GGX becomes Beckmann lobes of equal width, without "
+               "its tails";
     return NULL;
 }
 

@@ -77,6 +77,13 @@ float slope_variance_along(slope_distribution slopes, vec2 direction) {
     return dot(image, image);
 }
 
+// The same of a covariance.
+float variance_along(vec3 covariance, vec2 direction) {
+    return max(dot(covariance.xy, direction * direction) +
+                   2.0 * covariance.z * direction.x * direction.y,
+               0.0);
+}
+
 // P_22, Dupuy et al., 2013, Eq. 8: per unit of slopes' area.
 float slope_density(slope_distribution slopes, vec2 slope) {
     vec2 standardised = standardised_slope(slopes, slope);

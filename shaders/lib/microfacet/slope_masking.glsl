@@ -17,10 +17,13 @@ float height_above_slope(vec2 mean, vec3 direction) {
 // Smith's Lambda with the shifted mean, between Eqs. 15 and 16: that of
 //   nu = (cot theta - mu(phi))/(sigma(phi) sqrt 2) = height/sqrt(2 omega_xy^T Sigma omega_xy),
 // where both parts are multiplied by sin theta, which is 0 from above.
-float lambda_of_slopes(slope_distribution slopes, vec3 direction) {
-    float variance = slope_variance_along(slopes, direction.xy);
-    float height = height_above_slope(slopes.mean, direction);
+float lambda_of_variance(float height, float variance) {
     return lambda_gaussian(height * inversesqrt(max(2.0 * variance, 1e-30)));
+}
+
+float lambda_of_slopes(slope_distribution slopes, vec3 direction) {
+    return lambda_of_variance(height_above_slope(slopes.mean, direction),
+                              slope_variance_along(slopes, direction.xy));
 }
 
 // Eq. 13: the part of the surface that both directions see, heights correlated.

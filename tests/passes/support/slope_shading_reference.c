@@ -4,6 +4,7 @@
 
 #include "tests/passes/support/shading_reference.h"
 #include "tests/reference/lobe/half_vector_lobe.h"
+#include "tests/reference/lobe/plane_lobe.h"
 #include "tests/reference/microfacet/microfacet.h"
 #include "tests/reference/microfacet/slope_distribution.h"
 #include "tests/reference/vector.h"
@@ -138,6 +139,29 @@ void shade_lean(const lobe_material *material, const double moments[8], const do
 }
 
 // ---------------------------------------------------------------------------------------------
+// Base lobes as Gaussians
+
+/// GGX is a sum of Gaussians, whose error test_plane_lobe.c bounds.
+enum { MAXIMUM_TERMS = 4 };
+
+typedef struct gaussian_term {
+    double part, spread; ///< weight, and variance relative to the base lobe's
+} gaussian_term;
+
+static int gaussian_terms(const lobe_material *material, bool beckmann_alone,
+                          gaussian_term terms[MAXIMUM_TERMS]) {
+    terms[0] = (gaussian_term){1, 1};
+    if (beckmann_alone || material->model != LOBE_MATERIAL_MICROFACET ||
+        material->distribution != LOBE_DISTRIBUTION_GGX)
+        return 1;
+    double parts[MAXIMUM_TERMS], spreads[MAXIMUM_TERMS];
+    reference_plane_tail(0, parts, spreads);
+    for (int i = 0; i < MAXIMUM_TERMS; i++)
+        terms[i] = (gaussian_term){parts[i], spreads[i]};
+    return MAXIMUM_TERMS;
+}
+
+// ---------------------------------------------------------------------------------------------
 // LEADR
 
 static double height_above(const double slope[2], const double direction[3]) {
@@ -165,6 +189,25 @@ static double sum_of_facets(const reference_slopes *facets, const leadr_knobs *k
     return sum / weights / M_PI;
 }
 
+/// D times masking and shadowing of facets that mirror, base lobes included.
+static double mirrors_of(const lobe_material *material, const leadr_knobs *knobs,
+                         const reference_slopes *facets, const double base[3],
+                         const double half_vector[3], const double outgoing[3],
+                         const double incoming[3]) {
+    gaussian_term terms[MAXIMUM_TERMS];
+    const int count = gaussian_terms(material, knobs->flat, terms);
+    double distribution = 0, in = 0, out = 0;
+    for (int i = 0; i < count; i++) {
+        reference_slopes slopes = *facets;
+        for (int k = 0; k < 3; k++)
+            slopes.covariance[k] += terms[i].spread * base[k];
+        distribution += terms[i].part * reference_distribution_of_slopes(&slopes, half_vector);
+        in += terms[i].part * reference_slope_lambda(&slopes, incoming);
+        out += terms[i].part * reference_slope_lambda(&slopes, outgoing);
+    }
+    return distribution / (1 + in + out);
+}
+
 void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
                  const double outgoing[3], const double incoming[3], double radiance[3]) {
     radiance[0] = radiance[1] = radiance[2] = 0;
@@ -185,9 +228,10 @@ void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const 
         slopes.covariance[i] += base[i];
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double seen = in > 0 && out > 0;
-    double mirror = microfacet ? seen * reference_distribution_of_slopes(&slopes, half_vector) *
-                                     reference_slope_masking_shadowing(&slopes, incoming, outgoing)
-                               : reference_lobe_of_slopes(&slopes, half_vector);
+    double mirror =
+        !microfacet ? reference_lobe_of_slopes(&slopes, half_vector)
+        : seen > 0  ? mirrors_of(material, knobs, &facets, base, half_vector, outgoing, incoming)
+                    : 0;
     double lambert = seen * sum_of_facets(&facets, knobs, outgoing, incoming) / out *
                      reference_slope_masking_shadowing(&facets, incoming, outgoing);
     for (int i = 0; i < 3; i++) {
@@ -235,13 +279,15 @@ double multi_leadr_area_ratio(const slope_component *components, int count,
 }
 
 /// Base lobes become part of the components, as they do for facets that mirror.
-static slope_component with_base(const slope_component *component) {
-    slope_component result = *component;
-    double base[3];
-    reference_flat_covariance(component->moments, component->moments[3], base);
-    for (int i = 0; i < 3; i++)
-        result.moments[4 + i] += base[i];
-    return result;
+static void add_base(const slope_component *components, int count, double spread,
+                     slope_component *mirrors) {
+    for (int i = 0; i < count; i++) {
+        double base[3];
+        mirrors[i] = components[i];
+        reference_flat_covariance(components[i].moments, components[i].moments[3], base);
+        for (int k = 0; k < 3; k++)
+            mirrors[i].moments[4 + k] += spread * base[k];
+    }
 }
 
 /// Ashikhmin et al. 2000, as in Heitz 2014, section 5.3.
@@ -259,29 +305,23 @@ static double diffuse_visibility(const slope_component *components, int count,
     return 1 / (1 + fmax(in, out) + tau * fmin(in, out));
 }
 
-static double mirror_visibility(const slope_component *components, int count,
-                                const double incoming[3], const double outgoing[3]) {
-    return 1 / (multi_leadr_area_ratio(components, count, incoming) +
-                multi_leadr_area_ratio(components, count, outgoing) - 1);
-}
-
 typedef struct multi_leadr_sums {
-    double distribution, lobe, facets; ///< of all components
-    double in, out;                    ///< heights above the mean plane
+    double lobe, facets; ///< of all components
+    double in, out;      ///< heights above the mean plane
 } multi_leadr_sums;
 
-static multi_leadr_sums sum_components(const slope_component *components,
-                                       const slope_component *mirrors, int count,
+static multi_leadr_sums sum_components(const slope_component *components, int count,
                                        const leadr_knobs *knobs, const double outgoing[3],
                                        const double incoming[3], const double half_vector[3]) {
     multi_leadr_sums sums = {0};
+    slope_component mirrors[8];
+    add_base(components, count, 1, mirrors);
     for (int i = 0; i < count; i++) {
         const double part = components[i].part;
         reference_slopes facets, slopes;
         double variance;
         read_moments(components[i].moments, &facets, &variance);
         read_moments(mirrors[i].moments, &slopes, &variance);
-        sums.distribution += part * reference_distribution_of_slopes(&slopes, half_vector);
         sums.lobe += part * reference_lobe_of_slopes(&slopes, half_vector);
         sums.facets += part * sum_of_facets(&facets, knobs, outgoing, incoming);
         sums.in += part * height_above(facets.mean, incoming);
@@ -290,24 +330,46 @@ static multi_leadr_sums sum_components(const slope_component *components,
     return sums;
 }
 
+/// D times masking and shadowing of facets that mirror, base lobes included.
+static double mirrors_of_components(const lobe_material *material,
+                                    const slope_component *components, int count,
+                                    const double half_vector[3], const double outgoing[3],
+                                    const double incoming[3]) {
+    gaussian_term terms[MAXIMUM_TERMS];
+    const int term_count = gaussian_terms(material, false, terms);
+    double distribution = 0, in = 0, out = 0;
+    for (int t = 0; t < term_count; t++) {
+        slope_component mirrors[8];
+        add_base(components, count, terms[t].spread, mirrors);
+        for (int i = 0; i < count; i++) {
+            reference_slopes slopes;
+            double variance;
+            read_moments(mirrors[i].moments, &slopes, &variance);
+            distribution += terms[t].part * components[i].part *
+                            reference_distribution_of_slopes(&slopes, half_vector);
+        }
+        in += terms[t].part * (multi_leadr_area_ratio(mirrors, count, incoming) - 1);
+        out += terms[t].part * (multi_leadr_area_ratio(mirrors, count, outgoing) - 1);
+    }
+    return distribution / (1 + in + out);
+}
+
 void shade_multi_leadr(const lobe_material *material, const leadr_knobs *knobs,
                        const slope_component *components, int count, const double outgoing[3],
                        const double incoming[3], double radiance[3]) {
     radiance[0] = radiance[1] = radiance[2] = 0;
-    slope_component mirrors[8];
     double half_vector[3];
     if (incoming[2] <= 0)
         return;
     half_between(incoming, outgoing, half_vector);
-    for (int i = 0; i < count; i++)
-        mirrors[i] = with_base(&components[i]);
     const multi_leadr_sums sums =
-        sum_components(components, mirrors, count, knobs, outgoing, incoming, half_vector);
+        sum_components(components, count, knobs, outgoing, incoming, half_vector);
     const bool seen = sums.in > 0 && sums.out > 0;
     const bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     double mirror = sums.lobe, lambert = 0;
     if (microfacet)
-        mirror = seen ? sums.distribution * mirror_visibility(mirrors, count, incoming, outgoing) /
+        mirror = seen ? mirrors_of_components(material, components, count, half_vector, outgoing,
+                                              incoming) /
                             (4 * sums.out)
                       : 0;
     if (seen)

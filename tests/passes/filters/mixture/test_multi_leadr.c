@@ -102,6 +102,8 @@ static void shading_is_that_of_the_components(void **state) {
         lobe_material facets =
             microfacet_material(LOBE_DISTRIBUTION_BECKMANN, roughness, i % 2 ? 1 : 0);
         check_ground(*state, &facets, &grounds[i], alpha * alpha / 2);
+        facets.distribution = LOBE_DISTRIBUTION_GGX;
+        check_ground(*state, &facets, &grounds[i], alpha * alpha / 2);
         lobe_material lobes = half_vector_material(LOBE_DISTRIBUTION_VMF, 30);
         check_ground(*state, &lobes, &grounds[i], 1.0 / 30);
     }
