@@ -285,6 +285,7 @@ static known_member known[] = {
     MEMBER(cell_survey_constants, height, 1),
     MEMBER(cell_survey_constants, columns, 2),
     MEMBER(cell_survey_constants, rows, 3),
+    MEMBER(cell_survey_constants, part, 4),
     MEMBER(survey_extremes, places, 0),
     MEMBER(survey_extremes, factors, 1),
     MEMBER(ocean_fft_constants, size, 0),
