@@ -172,12 +172,6 @@ static void planes_of_rough_metal_reflect_what_they_should(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-static void validation_is_silent(void **state) {
-    fixture *f = *state;
-    assert_int_equal(lobe_device_validation_count(f->device), 0);
-    assert_int_equal(f->errors, 0);
-}
-
 // ---------------------------------------------------------------------------------------------
 // Measuring
 

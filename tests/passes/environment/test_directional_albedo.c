@@ -190,12 +190,6 @@ static void tables_are_made_once(void **state) {
     assert_memory_equal(again, tables, sizeof again);
 }
 
-static void validation_is_silent(void **state) {
-    fixture *f = *state;
-    assert_int_equal(lobe_device_validation_count(f->device), 0);
-    assert_int_equal(f->errors, 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texels_are_integrals),

@@ -176,12 +176,6 @@ static void the_border_repeats_the_other_side(void **state) {
     free(map);
 }
 
-static void validation_is_silent(void **state) {
-    fixture *f = *state;
-    assert_int_equal(lobe_device_validation_count(f->device), 0);
-    assert_int_equal(f->errors, 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_are_integrals),

@@ -391,12 +391,6 @@ static void a_still_environment_is_not_added_up_again(void **state) {
     free(cube.texels);
 }
 
-static void validation_is_silent(void **state) {
-    fixture *f = *state;
-    assert_int_equal(lobe_device_validation_count(f->device), 0);
-    assert_int_equal(f->errors, 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(constant_light_is_constant),

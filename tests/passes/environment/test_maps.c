@@ -278,7 +278,7 @@ static void an_update_makes_all_anew(void **state) {
     lobe_image_free(&environment.image);
 }
 
-static void validation_is_silent(void **state) {
+static void nothing_is_reported(void **state) {
     fixture *f = *state;
     assert_int_equal(lobe_device_validation_count(f->device), 0);
     assert_int_equal(f->warnings, 0);
@@ -294,7 +294,7 @@ int main(void) {
         cmocka_unit_test(making_can_be_stopped),
         cmocka_unit_test(wrong_arguments_are_told),
         cmocka_unit_test(an_update_makes_all_anew),
-        cmocka_unit_test(validation_is_silent),
+        cmocka_unit_test(nothing_is_reported),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }

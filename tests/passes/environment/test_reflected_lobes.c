@@ -160,12 +160,6 @@ static void light_comes_from_where_it_should(void **state) {
     }
 }
 
-static void validation_is_silent(void **state) {
-    fixture *f = *state;
-    assert_int_equal(lobe_device_validation_count(f->device), 0);
-    assert_int_equal(f->errors, 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobes_have_the_weight_and_mean_direction_of_light),

@@ -53,6 +53,12 @@ int fixture_create_validated(void **state) {
     return create(state, true);
 }
 
+void validation_is_silent(void **state) {
+    const fixture *f = *state;
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
+    assert_int_equal(f->errors, 0);
+}
+
 int fixture_destroy(void **state) {
     fixture *f = *state;
     lobe_renderer_destroy(&f->renderer);

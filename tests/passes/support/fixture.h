@@ -29,6 +29,9 @@ int fixture_destroy(void **state);
 /// The same under the Khronos validation layer.
 int fixture_create_validated(void **state);
 
+/// A last test: neither the validation layer nor the library has reported an error.
+void validation_is_silent(void **state);
+
 /// A separate device with the fixture's log; asserts success.
 lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters);
 
