@@ -8,11 +8,11 @@
 #define CALIBRATION_FRAMES  3
 #define CALIBRATION_SAMPLES 64
 
-/// Knobs are not varied of filters whose defaults miss the limit by more than this factor, or cost
-/// as many times what the best default within the limit does,
+/// A filter's knobs are not varied if its defaults miss the limit by more than this factor, or cost
+/// more than this many times what those of another filter within the limit do.
 #define FARTHEST 4
 
-/// nor of those that another filter beats by this factor in error and no more time.
+/// Nor are they if another filter errs less by this factor and takes no more time.
 #define CLEARLY_BETTER 2
 
 typedef struct candidates {
@@ -28,7 +28,7 @@ static const sweep_row *find_defaults(const sweep_row *rows, size_t index) {
     return &rows[defaults];
 }
 
-/// Whether no row that differs from `row` by its knobs is likely to be picked instead of `other`.
+/// Whether other knobs are unlikely to make the filter of `row` a better choice than `other`.
 static bool is_beaten(const trade_request *request, const sweep_row *row, const sweep_row *other) {
     const double error = row->error.relative_l2, others_error = other->error.relative_l2;
     const double time = trade_milliseconds(request, row);
