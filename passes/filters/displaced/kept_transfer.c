@@ -74,7 +74,9 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
         .inputs = inputs_digest(material, kind),
         .parts = passes_transfer_part_count(material, kind),
         .has_texels = has_texels(context, material, kind),
-        .layout = {.what = "relief", .buffer_bytes = sizeof(struct transfer_closure_constants)},
+        .layout = {.what = "relief",
+                   .buffer_bytes = {sizeof(struct transfer_closure_constants)},
+                   .buffer_count = 1},
         .key = key,
         .user = kind,
     };
@@ -93,7 +95,7 @@ bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
         passes_restoring(context->graph, stored, 0, &transfer->map);
         if (kind->normals)
             passes_restoring(context->graph, stored, 1, &transfer->facets);
-        transfer->closure = lobe_graph_import_buffer(context->graph, stored->buffer);
+        transfer->closure = lobe_graph_import_buffer(context->graph, stored->buffers[0]);
         return true;
     }
     bool in_parts;
@@ -101,5 +103,5 @@ bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
     *relief = passes_relief(context, index, near || in_parts);
     *transfer = passes_transfer_map(context, index, kind, relief, parts, in_parts);
     const lobe_resource images[] = {transfer->map.resource, transfer->facets.resource};
-    return passes_kept_built(context, prepared, images, transfer->closure);
+    return passes_kept_built(context, prepared, images, &transfer->closure);
 }

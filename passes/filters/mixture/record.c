@@ -28,7 +28,8 @@ lobe_result passes_mixture_prepare(const filter_context *context, uint32_t index
         .layout = {.what = "mixture",
                    .images = {passes_mixture_extent(material, kind)},
                    .image_count = 1,
-                   .buffer_bytes = sizeof(struct moment_binning_constants)},
+                   .buffer_bytes = {sizeof(struct moment_binning_constants)},
+                   .buffer_count = 1},
         .key = key,
         .user = kind,
     };
@@ -43,12 +44,12 @@ bool passes_mixture_build(const filter_context *context, uint32_t index, const m
     if (stored) {
         *mixture = passes_mixture_map_declare(context, index, kind);
         passes_restoring(context->graph, stored, 0, &mixture->map);
-        mixture->bins = lobe_graph_import_buffer(context->graph, stored->buffer);
+        mixture->bins = lobe_graph_import_buffer(context->graph, stored->buffers[0]);
         return true;
     }
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
     *mixture = in_parts ? passes_mixture_map_parts(context, index, kind, parts)
                         : passes_mixture_map(context, index, kind);
-    return passes_kept_built(context, prepared, &mixture->map.resource, mixture->bins);
+    return passes_kept_built(context, prepared, &mixture->map.resource, &mixture->bins);
 }

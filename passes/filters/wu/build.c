@@ -24,6 +24,19 @@ lobe_resource passes_wu_buffer(const wu_build *build, const char *name, uint64_t
                              &(lobe_buffer_description){.name = name, .size = (size_t)bytes});
 }
 
+static lobe_resource retained(lobe_graph *graph, const char *what, uint32_t material,
+                              uint64_t bytes) {
+    char name[64];
+    snprintf(name, sizeof name, "%s of material %u", what, material);
+    return lobe_graph_buffer(
+        graph, &(lobe_buffer_description){.name = name, .size = (size_t)bytes, .retained = true});
+}
+
+lobe_resource passes_wu_shared_buffer(const wu_build *build, const char *name, uint64_t bytes) {
+    return build->in_parts ? retained(build->graph, name, build->material, bytes)
+                           : passes_wu_buffer(build, name, bytes);
+}
+
 uint32_t passes_wu_path_count(const wu_build *build) {
     const struct wu_constants *constants = &build->models.constants;
     return constants->patches * constants->patches * constants->points;
@@ -71,45 +84,45 @@ static struct wu_constants constants_of(uint32_t width, uint32_t height, const w
     return constants;
 }
 
-static lobe_resource retained(const wu_build *build, const char *what, uint32_t material,
-                              uint64_t bytes) {
-    char name[64];
-    snprintf(name, sizeof name, "%s of material %u", what, material);
-    return lobe_graph_buffer(
-        build->graph,
-        &(lobe_buffer_description){.name = name, .size = (size_t)bytes, .retained = true});
-}
-
 /// Four floats, and those of mirrors, if there are any.
-static uint64_t whole_bytes(const wu_build *build, uint64_t directions, bool mirrors) {
-    const struct wu_constants *constants = &build->models.constants;
-    const uint64_t patches = (uint64_t)constants->patches * constants->patches,
+static uint64_t whole_bytes(const struct wu_constants *constants, bool mirrors) {
+    const uint64_t directions = constants->angular * constants->angular,
+                   patches = (uint64_t)constants->patches * constants->patches,
                    numbers = constants->level_count * (directions * directions + 2 * patches);
     return (4 + (mirrors ? numbers : 0)) * sizeof(float);
 }
 
-static void declare(wu_build *build, uint32_t material, const wu_kind *kind) {
-    wu_models *models = &build->models;
-    const struct wu_level *last = &models->constants.levels[models->constants.level_count - 1];
-    const uint64_t cells = last->first_cell + (uint64_t)last->width * last->height;
-    const uint64_t directions = models->constants.angular * models->constants.angular;
-    const uint64_t cell_bytes = cells * sizeof(struct wu_cell),
-                   ratio_bytes = (last->first_pair + directions * directions) * 2 * sizeof(float),
-                   last_bytes = whole_bytes(build, directions, kind->mirrors);
-    models->block = lobe_graph_upload(build->graph, "models of a relief", &models->constants,
-                                      sizeof models->constants);
-    models->cells = retained(build, "cells", material, cell_bytes);
-    models->ratios = retained(build, "scaling", material, ratio_bytes);
-    models->whole = retained(build, "numbers of the whole map", material, last_bytes);
-    models->bytes = cell_bytes + ratio_bytes + last_bytes;
+void passes_wu_model_bytes(const device_map *heights, const wu_kind *kind, uint32_t bytes[3]) {
+    const struct wu_constants constants = constants_of(heights->width, heights->height, kind);
+    const struct wu_level *last = &constants.levels[constants.level_count - 1];
+    const uint32_t cells = last->first_cell + last->width * last->height,
+                   directions = constants.angular * constants.angular;
+    bytes[0] = cells * (uint32_t)sizeof(struct wu_cell);
+    bytes[1] = (last->first_pair + directions * directions) * 2 * (uint32_t)sizeof(float);
+    bytes[2] = (uint32_t)whole_bytes(&constants, kind->mirrors);
 }
 
-wu_build passes_wu_begin(const filter_context *context, uint32_t index, const wu_kind *kind) {
-    const device_map *map = &context->scene->materials[index].maps[MAP_HEIGHT];
-    wu_build build = {.graph = context->graph,
-                      .relief = passes_relief(context, index, false),
-                      .models = {.constants = constants_of(map->width, map->height, kind)},
+wu_models passes_wu_models_declare(const filter_context *context, uint32_t index,
+                                   const wu_kind *kind) {
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    wu_models models = {.constants = constants_of(heights->width, heights->height, kind)};
+    uint32_t bytes[3];
+    passes_wu_model_bytes(heights, kind, bytes);
+    models.block = lobe_graph_upload(context->graph, "models of a relief", &models.constants,
+                                     sizeof models.constants);
+    models.cells = retained(context->graph, "cells", index, bytes[0]);
+    models.ratios = retained(context->graph, "scaling", index, bytes[1]);
+    models.whole = retained(context->graph, "numbers of the whole map", index, bytes[2]);
+    models.bytes = (uint64_t)bytes[0] + bytes[1] + bytes[2];
+    return models;
+}
+
+wu_build passes_wu_begin(const filter_context *context, uint32_t index, const wu_kind *kind,
+                         bool in_parts) {
+    return (wu_build){.graph = context->graph,
+                      .material = index,
+                      .in_parts = in_parts,
+                      .relief = passes_relief(context, index, in_parts),
+                      .models = passes_wu_models_declare(context, index, kind),
                       .lobes = {SPECIALISE_WU_LOBES, kind->lobes}};
-    declare(&build, index, kind);
-    return build;
 }

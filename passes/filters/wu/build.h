@@ -28,6 +28,8 @@ typedef struct wu_models {
 /// What the passes of the models share.
 typedef struct wu_build {
     lobe_graph *graph;
+    uint32_t material;
+    bool in_parts; ///< what later parts need is kept between frames
     relief relief;
     wu_models models;
     lobe_specialisation lobes;
@@ -40,8 +42,16 @@ typedef struct wu_build {
 void passes_wu_place_levels(uint32_t width, uint32_t height, const wu_kind *kind,
                             struct wu_constants *constants);
 
-/// Declares the relief and the models of a material, which the passes below make.
-wu_build passes_wu_begin(const filter_context *context, uint32_t material, const wu_kind *kind);
+/// What the models take: cells, ratios, and what is of the whole map.
+void passes_wu_model_bytes(const device_map *heights, const wu_kind *kind, uint32_t bytes[3]);
+
+/// Declares the models of a material alone.
+wu_models passes_wu_models_declare(const filter_context *context, uint32_t material,
+                                   const wu_kind *kind);
+/// Declares the relief and the models of a material, which the passes below make. `in_parts`: over
+/// several frames.
+wu_build passes_wu_begin(const filter_context *context, uint32_t material, const wu_kind *kind,
+                         bool in_parts);
 
 /// Adds a pass that reads the constants.
 lobe_pass *passes_wu_pass(const wu_build *build, const char *name);
@@ -49,6 +59,8 @@ lobe_pass *passes_wu_pass(const wu_build *build, const char *name);
 void passes_wu_dispatch(const wu_build *build, lobe_pass *pass, const char *shader,
                         const uint32_t threads[2], const struct wu_step *step);
 lobe_resource passes_wu_buffer(const wu_build *build, const char *name, uint64_t bytes);
+/// One that later parts of the work read, too.
+lobe_resource passes_wu_shared_buffer(const wu_build *build, const char *name, uint64_t bytes);
 uint32_t passes_wu_path_count(const wu_build *build);
 /// Directions that are kept of each sample: those of the table, filled up to a multiple of four.
 uint32_t passes_wu_row(const wu_build *build);
@@ -62,9 +74,11 @@ typedef struct wu_samples {
     bool one_way;   ///< light and viewer may not change places
 } wu_samples;
 
-/// Means of the products.
-lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name,
+/// Means of the products, into `means`: see passes_wu_pair_bytes.
+lobe_resource passes_wu_add_pairs(const wu_build *build, lobe_resource means,
                                   const wu_samples *samples);
+/// Of a number for each patch and pair of directions.
+uint64_t passes_wu_pair_bytes(const wu_build *build);
 
 /// The coarse relief of a level.
 relief passes_wu_add_low_relief(const wu_build *build, uint32_t level);

@@ -12,8 +12,8 @@ static void add_vertices(wu_build *build) {
     passes_relief_read(&build->relief, pass);
     build->vertices = lobe_pass_write(
         pass, &(lobe_binding){.name = "vertex_block",
-                              .resource = passes_wu_buffer(build, "vertices of paths",
-                                                           vertices * 8 * sizeof(float))});
+                              .resource = passes_wu_shared_buffer(build, "vertices of paths",
+                                                                  vertices * 8 * sizeof(float))});
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){.shader = "filters/wu/path_vertices.comp", .threads = {paths}});
 }
@@ -32,7 +32,7 @@ static path_light add_light(const wu_build *build) {
     path_light light;
     light.first = lobe_pass_write(
         pass, &(lobe_binding){.name = "first_block",
-                              .resource = passes_wu_buffer(build, "first light", bytes)});
+                              .resource = passes_wu_shared_buffer(build, "first light", bytes)});
     light.second = lobe_pass_write(
         pass, &(lobe_binding){.name = "second_block",
                               .resource = passes_wu_buffer(build, "second light", bytes)});
@@ -54,17 +54,20 @@ static void add_energy(wu_build *build, const path_light *light) {
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/wu/path_energy.comp"});
 }
 
-lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name,
+uint64_t passes_wu_pair_bytes(const wu_build *build) {
+    const uint64_t patches = build->models.constants.patches,
+                   angular = build->models.constants.angular;
+    return patches * patches * angular * angular * angular * angular * sizeof(float);
+}
+
+lobe_resource passes_wu_add_pairs(const wu_build *build, lobe_resource means,
                                   const wu_samples *samples) {
     const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
-    const uint32_t angular = build->models.constants.angular, blocks = passes_wu_row(build) / 4;
-    const uint64_t pairs = (uint64_t)patches * angular * angular * angular * angular;
+    const uint32_t blocks = passes_wu_row(build) / 4;
     lobe_pass *pass = passes_wu_pass(build, "pair_means");
     lobe_pass_read(pass, &(lobe_binding){.name = "left_block", .resource = samples->left});
     lobe_pass_read(pass, &(lobe_binding){.name = "right_block", .resource = samples->right});
-    const lobe_resource means = lobe_pass_write(
-        pass, &(lobe_binding){.name = "pair_block",
-                              .resource = passes_wu_buffer(build, name, pairs * sizeof(float))});
+    means = lobe_pass_write(pass, &(lobe_binding){.name = "pair_block", .resource = means});
     passes_wu_dispatch(build, pass, "filters/wu/pair_means.comp",
                        (uint32_t[]){patches * blocks * blocks, 1},
                        &(struct wu_step){.samples = samples->count, .one_way = samples->one_way});
@@ -73,14 +76,15 @@ lobe_resource passes_wu_add_pairs(const wu_build *build, const char *name,
 
 void passes_wu_add_paths(wu_build *build) {
     const uint32_t points = build->models.constants.points;
+    const uint64_t bytes = passes_wu_pair_bytes(build);
     add_vertices(build);
     const path_light light = add_light(build);
     add_energy(build, &light);
     build->first = light.first;
     build->direct = passes_wu_add_pairs(
-        build, "light at once",
+        build, passes_wu_shared_buffer(build, "light at once", bytes),
         &(wu_samples){.left = light.first, .right = light.first, .count = points});
     build->indirect = passes_wu_add_pairs(
-        build, "light between facets",
+        build, passes_wu_shared_buffer(build, "light between facets", bytes),
         &(wu_samples){.left = light.first, .right = light.later, .count = points});
 }

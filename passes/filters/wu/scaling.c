@@ -17,11 +17,12 @@ static lobe_resource add_low_light(const wu_build *build, uint32_t level) {
                                                            one_way ? bytes : sizeof(float))});
     passes_wu_dispatch(build, pass, "filters/wu/low_light.comp", (uint32_t[]){row, samples},
                        &(struct wu_step){.level = level});
-    return passes_wu_add_pairs(build, "light of cells",
-                               &(wu_samples){.left = first,
-                                             .right = one_way ? second : first,
-                                             .count = constants->points * WU_DRAWS,
-                                             .one_way = one_way});
+    return passes_wu_add_pairs(
+        build, passes_wu_buffer(build, "light of cells", passes_wu_pair_bytes(build)),
+        &(wu_samples){.left = first,
+                      .right = one_way ? second : first,
+                      .count = constants->points * WU_DRAWS,
+                      .one_way = one_way});
 }
 
 static void read_light(const wu_build *build, lobe_pass *pass, lobe_resource low) {

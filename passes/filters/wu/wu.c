@@ -1,8 +1,9 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/filters/displaced/relief.h"
-#include "passes/filters/wu/models.h"
+#include "passes/filters/wu/kept_models.h"
 #include "passes/maps/filtered_maps.h"
+#include "passes/maps/kept/record.h"
 #include "passes/maps/parameter_averaging.h"
 #include "passes/upload/material_maps.h"
 
@@ -18,6 +19,7 @@ static const filter_knob lobes_knob = {
                     .initial = 6,
                     .sweep = "1"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_WU_LOBES),
+    .decides_slots = true,
 };
 static const filter_knob ratio_knob = {
     .description = {.name = "ratio",
@@ -27,6 +29,7 @@ static const filter_knob ratio_knob = {
                     .maximum = 1,
                     .choices = ratios,
                     .sweep = "printed"},
+    .decides_slots = true,
 };
 static const filter_knob formulas_knob = {
     .description = {.name = "formulas",
@@ -36,6 +39,7 @@ static const filter_knob formulas_knob = {
                     .maximum = 1,
                     .choices = formulas,
                     .sweep = "printed"},
+    .decides_slots = true,
 };
 static const filter_knob patches_knob = {
     .description = {.name = "patches",
@@ -44,6 +48,7 @@ static const filter_knob patches_knob = {
                     .minimum = 1,
                     .maximum = 8,
                     .initial = 4},
+    .decides_slots = true,
 };
 static const filter_knob angular_knob = {
     .description = {.name = "angular",
@@ -52,6 +57,7 @@ static const filter_knob angular_knob = {
                     .minimum = 3,
                     .maximum = 15,
                     .initial = 15},
+    .decides_slots = true,
 };
 static const filter_knob points_knob = {
     .description = {.name = "points",
@@ -86,11 +92,8 @@ static const filter_knob *const knobs[] = {
     NULL,
 };
 
-static wu_models make_models(const filter_context *context, uint32_t index,
-                             filtered_appearance *appearance) {
-    const device_material *material = &context->scene->materials[index];
-    const device_map *map = &material->maps[MAP_HEIGHT];
-    const wu_kind kind = {
+static wu_kind kind_of(const filter_context *context, uint32_t index) {
+    return (wu_kind){
         .lobes = (uint32_t)passes_knob_value(context, &lobes_knob),
         .angular = (uint32_t)passes_knob_value(context, &angular_knob),
         .patches = (uint32_t)passes_knob_value(context, &patches_knob),
@@ -98,12 +101,25 @@ static wu_models make_models(const filter_context *context, uint32_t index,
         .bounces = (uint32_t)passes_knob_value(context, &bounces_knob),
         .printed = (passes_knob_choice(context, &ratio_knob) == 1 ? WU_PRINTED_RATIO : 0u) |
                    (passes_knob_choice(context, &formulas_knob) == 1 ? WU_PRINTED_LOBES : 0u),
-        .mirrors = material->material->model == LOBE_MATERIAL_MICROFACET,
+        .mirrors = context->scene->materials[index].material->model == LOBE_MATERIAL_MICROFACET,
     };
-    const wu_models models = passes_wu_models(context, index, &kind);
-    appearance->bytes += models.bytes;
+}
+
+static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
+    const wu_kind kind = kind_of(context, index);
+    return passes_kept_models_prepare(context, index, &kind, slot);
+}
+
+/// false: not all of them are made yet.
+static bool make_models(const filter_context *context, uint32_t index, const void *prepared,
+                        wu_models *models, filtered_appearance *appearance) {
+    const device_map *map = &context->scene->materials[index].maps[MAP_HEIGHT];
+    const wu_kind kind = kind_of(context, index);
+    if (!passes_kept_models_build(context, index, &kind, prepared, models))
+        return false;
+    appearance->bytes += models->bytes;
     appearance->base_texels += (uint64_t)map->width * map->height;
-    return models;
+    return true;
 }
 
 /// What a shader that reads no relief has bound.
@@ -118,9 +134,11 @@ static void build(const filter_context *context, size_t instance, const void *pr
                   filtered_appearance *appearance) {
     passes_parameter_averaging_build(context, instance, prepared, appearance);
     const uint32_t index = context->scene->instances[instance].material;
-    const bool has_relief = passes_has_relief(&context->scene->materials[index]);
-    const wu_models models =
-        has_relief ? make_models(context, index, appearance) : no_models(context);
+    wu_models models;
+    const bool has_relief = passes_has_relief(&context->scene->materials[index]) &&
+                            make_models(context, index, prepared, &models, appearance);
+    if (!has_relief)
+        models = no_models(context);
     passes_appearance_bind(appearance, "wu_block", models.block, (lobe_sampler){0});
     passes_appearance_bind(appearance, "cell_block", models.cells, (lobe_sampler){0});
     passes_appearance_bind(appearance, "ratio_block", models.ratios, (lobe_sampler){0});
@@ -147,6 +165,10 @@ const lobe_filter passes_filter_wu = {
     .shading = "wu",
     .knobs = knobs,
     .reads_heights = true,
+    .prepare = prepare,
+    .adapts_to_texels = true,
+    .save = passes_kept_save,
+    .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,
 };

@@ -190,12 +190,12 @@ typedef struct lobe_render_environment {
 } lobe_render_environment;
 
 /// How maps are made that are fitted to materials (filters `mixture`, `tan`, `fournier` and
-/// `multi_leadr`) or to their reliefs (`displaced`), which can take seconds to minutes.
+/// `multi_leadr`) or to their reliefs (`displaced`, `wu`), which can take seconds to minutes.
 typedef struct lobe_render_fits {
     /// Largest number of parts of the work (levels of a map, bands of rows of large levels, bands
     /// of facets) done in this frame. Until all parts of a material's map are done, the material is
-    /// drawn unfiltered, as `direct` does (`displaced`: without its relief). Texels that replace
-    /// others, and those that are given on the device, are fitted at once. 0: all parts.
+    /// drawn unfiltered, as `direct` does (`displaced`, `wu`: without its relief). Texels that
+    /// replace others, and those that are given on the device, are fitted at once. 0: all parts.
     uint32_t parts;
     /// An existing folder that caches the maps, in files named after what they were made from. It
     /// is searched when a material's map is first needed; a map that is found is not fitted. Others

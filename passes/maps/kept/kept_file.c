@@ -9,7 +9,7 @@
 #include "passes/context/digest.h"
 #include "passes/maps/level_reduction.h"
 
-/// All members are compared with what a file must have; then come the buffer and the images' rows.
+/// All members are compared with what a file must have; then come the buffers and the images' rows.
 typedef struct file_header {
     char name[8];
     uint32_t byte_order;
@@ -39,20 +39,24 @@ static size_t row_bytes(const kept_image *image) {
     return (size_t)passes_kept_rows(image) * KEPT_FILE_ROW * lobe_format_size(image->format);
 }
 
-/// Of the buffer in a file, so that images lie well aligned.
-static size_t buffer_bytes(const kept_layout *layout) {
-    return ((size_t)layout->buffer_bytes + 15) / 16 * 16;
+/// Of a buffer in a file, so that what follows lies well aligned.
+static size_t buffer_bytes(const kept_layout *layout, uint32_t buffer) {
+    return ((size_t)layout->buffer_bytes[buffer] + 15) / 16 * 16;
 }
 
 static size_t content_bytes(const kept_layout *layout) {
-    size_t bytes = buffer_bytes(layout);
+    size_t bytes = 0;
+    for (uint32_t i = 0; i < layout->buffer_count; i++)
+        bytes += buffer_bytes(layout, i);
     for (uint32_t i = 0; i < layout->image_count; i++)
         bytes += row_bytes(&layout->images[i]);
     return bytes;
 }
 
 static uint64_t layout_digest(const kept_layout *layout) {
-    uint64_t digest = passes_digest(layout->image_count, layout->buffer_bytes);
+    uint64_t digest = layout->image_count;
+    for (uint32_t i = 0; i < layout->buffer_count; i++)
+        digest = passes_digest(digest, layout->buffer_bytes[i]);
     for (uint32_t i = 0; i < layout->image_count; i++) {
         const kept_image *image = &layout->images[i];
         const uint64_t numbers[] = {(uint64_t)image->format, image->width, image->height,
@@ -101,8 +105,10 @@ static bool load_file(const char *path, uint64_t key, const kept_layout *layout,
         return false;
     }
     uint8_t *next = content->file + sizeof(file_header);
-    content->buffer = next;
-    next += buffer_bytes(layout);
+    for (uint32_t i = 0; i < layout->buffer_count; i++) {
+        content->buffers[i] = next;
+        next += buffer_bytes(layout, i);
+    }
     for (uint32_t i = 0; i < layout->image_count; i++) {
         const kept_image *image = &layout->images[i];
         content->rows[i] =
@@ -131,14 +137,18 @@ void passes_kept_content_free(kept_content *content) {
 }
 
 static lobe_result save_file(const char *path, uint64_t key, const kept_layout *layout,
-                             const void *const *images, const void *buffer, const lobe_host *host) {
+                             const void *const *images, const void *const *buffers,
+                             const lobe_host *host) {
     const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     const size_t size = sizeof(file_header) + content_bytes(layout);
     uint8_t *file = lobe_allocate(silent.allocator, size, 1);
     if (!file)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    uint8_t *content = file + sizeof(file_header), *next = content + buffer_bytes(layout);
-    memcpy(content, buffer, layout->buffer_bytes);
+    uint8_t *content = file + sizeof(file_header), *next = content;
+    for (uint32_t i = 0; i < layout->buffer_count; i++) {
+        memcpy(next, buffers[i], layout->buffer_bytes[i]);
+        next += buffer_bytes(layout, i);
+    }
     for (uint32_t i = 0; i < layout->image_count; i++) {
         memcpy(next, images[i], image_bytes(&layout->images[i]));
         next += row_bytes(&layout->images[i]);
@@ -151,9 +161,10 @@ static lobe_result save_file(const char *path, uint64_t key, const kept_layout *
 }
 
 void passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
-                           const void *const *images, const void *buffer, const lobe_host *host) {
+                           const void *const *images, const void *const *buffers,
+                           const lobe_host *host) {
     char *path = path_of(host, folder, key, layout);
-    if (!path || save_file(path, key, layout, images, buffer, host) != LOBE_OK)
+    if (!path || save_file(path, key, layout, images, buffers, host) != LOBE_OK)
         lobe_host_log(host, LOBE_LOG_WARNING, "%s: cannot save the %s in this folder", folder,
                       layout->what);
     lobe_release(path);

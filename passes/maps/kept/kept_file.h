@@ -10,7 +10,8 @@
 /// again. A file is named after a digest of all that it was made from, and holds images and buffers
 /// as they are on the device. Files may be removed at any time.
 
-#define KEPT_MAXIMUM_IMAGES 2
+#define KEPT_MAXIMUM_IMAGES  2
+#define KEPT_MAXIMUM_BUFFERS 3
 
 /// Texels of a row: levels, and within a level layers, follow each other in rows of so many texels.
 #define KEPT_FILE_ROW 4096
@@ -22,19 +23,20 @@ typedef struct kept_image {
     uint32_t layers, levels;
 } kept_image;
 
-/// What a file holds: images, and one buffer.
+/// What a file holds: images and buffers, of these at least one.
 typedef struct kept_layout {
     const char *what; ///< in messages, and the ending of files: letters
     kept_image images[KEPT_MAXIMUM_IMAGES];
     uint32_t image_count;
-    uint32_t buffer_bytes; ///< a multiple of four, not 0
+    uint32_t buffer_bytes[KEPT_MAXIMUM_BUFFERS]; ///< multiples of four, not 0
+    uint32_t buffer_count;
 } kept_layout;
 
 /// A file in host memory.
 typedef struct kept_content {
-    uint8_t *file;                        ///< owned: all that was read
-    lobe_image rows[KEPT_MAXIMUM_IMAGES]; ///< within `file`: not to be freed on their own
-    const void *buffer;                   ///< within `file`
+    uint8_t *file;                             ///< owned: all that was read
+    lobe_image rows[KEPT_MAXIMUM_IMAGES];      ///< within `file`: not to be freed on their own
+    const void *buffers[KEPT_MAXIMUM_BUFFERS]; ///< within `file`
 } kept_content;
 
 /// Rows that an image takes.
@@ -50,6 +52,7 @@ void passes_kept_content_free(kept_content *content);
 /// Saves a file. `images`: of each, texels level by level, layer by layer. Logs a warning if that
 /// fails.
 void passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
-                           const void *const *images, const void *buffer, const lobe_host *host);
+                           const void *const *images, const void *const *buffers,
+                           const lobe_host *host);
 
 #endif

@@ -7,7 +7,7 @@ typedef struct kept_reading {
     bool waits; ///< it has not been taken yet
     kept_layout layout;
     lobe_resource images[KEPT_MAXIMUM_IMAGES];
-    lobe_resource buffer;
+    lobe_resource buffers[KEPT_MAXIMUM_BUFFERS];
 } kept_reading;
 
 struct kept_record {
@@ -88,7 +88,7 @@ static void advance(const filter_context *context, const kept_subject *subject,
                     kept_record *record) {
     fit_work *work = context->work;
     const uint32_t left = record->part_count - record->done;
-    const bool at_once = record->changed || record->stored.buffer || !subject->has_texels;
+    const bool at_once = record->changed || record->stored.buffers[0] || !subject->has_texels;
     const uint32_t step = at_once || left < work->parts ? left : work->parts;
     record->in_parts = !at_once && left > 0 && (record->done > 0 || step < left);
     record->done += step;
@@ -127,28 +127,31 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
 }
 
 const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record) {
-    return record && !context->work->is_dry && record->stored.buffer ? &record->stored : NULL;
+    return record && !context->work->is_dry && record->stored.buffers[0] ? &record->stored : NULL;
 }
 
 static void read_back(const filter_context *context, const kept_record *record,
-                      const lobe_resource *images, lobe_resource buffer) {
+                      const lobe_resource *images, const lobe_resource *buffers) {
     kept_reading *reading = record->reading;
-    *reading = (kept_reading){.waits = true, .layout = record->layout, .buffer = buffer};
+    *reading = (kept_reading){.waits = true, .layout = record->layout};
     for (uint32_t i = 0; i < record->layout.image_count; i++) {
         reading->images[i] = images[i];
         lobe_graph_read_back(context->graph, images[i], (lobe_range){0});
     }
-    lobe_graph_read_back(context->graph, buffer, (lobe_range){0});
+    for (uint32_t i = 0; i < record->layout.buffer_count; i++) {
+        reading->buffers[i] = buffers[i];
+        lobe_graph_read_back(context->graph, buffers[i], (lobe_range){0});
+    }
     context->work->reads_back = true;
 }
 
 bool passes_kept_built(const filter_context *context, const kept_record *record,
-                       const lobe_resource *images, lobe_resource buffer) {
+                       const lobe_resource *images, const lobe_resource *buffers) {
     if (!record || context->work->is_dry)
         return true;
     const bool is_whole = record->done == record->part_count;
     if (is_whole && record->looked_up && !record->settled && context->work->saves)
-        read_back(context, record, images, buffer);
+        read_back(context, record, images, buffers);
     return is_whole;
 }
 
@@ -159,15 +162,18 @@ void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
     if (!reading->waits)
         return;
     reading->waits = false;
-    const void *images[KEPT_MAXIMUM_IMAGES] = {0};
-    const void *buffer = lobe_graph_data(graph, reading->buffer, NULL);
-    bool complete = buffer != NULL;
+    const void *images[KEPT_MAXIMUM_IMAGES] = {0}, *buffers[KEPT_MAXIMUM_BUFFERS] = {0};
+    bool complete = true;
     for (uint32_t i = 0; i < reading->layout.image_count; i++) {
         images[i] = lobe_graph_data(graph, reading->images[i], NULL);
         complete &= images[i] != NULL;
     }
+    for (uint32_t i = 0; i < reading->layout.buffer_count; i++) {
+        buffers[i] = lobe_graph_data(graph, reading->buffers[i], NULL);
+        complete &= buffers[i] != NULL;
+    }
     if (!folder || !complete)
         return;
-    passes_kept_file_save(folder, record->key, &reading->layout, images, buffer, host);
+    passes_kept_file_save(folder, record->key, &reading->layout, images, buffers, host);
     record->settled = true;
 }

@@ -40,8 +40,8 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
 /// What a folder had of the maps; NULL: nothing, so they are to be made.
 const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record);
 /// Says that all passes are declared that make the maps, so that they may be saved. Returns whether
-/// all of them are made in this frame or before. `images`, `buffer`: as in the layout.
+/// all of them are made in this frame or before. `images`, `buffers`: as in the layout.
 bool passes_kept_built(const filter_context *context, const kept_record *record,
-                       const lobe_resource *images, lobe_resource buffer);
+                       const lobe_resource *images, const lobe_resource *buffers);
 
 #endif

@@ -7,19 +7,21 @@ lobe_result passes_stored_content_create(lobe_graph *graph, const kept_layout *l
     for (uint32_t i = 0; result == LOBE_OK && i < layout->image_count; i++)
         result = lobe_graph_create_texture(
             graph, &(lobe_texture_parameters){"cached map", &content->rows[i]}, &stored->rows[i]);
-    return result ? result
-                  : lobe_graph_create_buffer(
-                        graph,
-                        &(lobe_buffer_parameters){.name = "numbers of a cached map",
-                                                  .size = layout->buffer_bytes,
-                                                  .data = content->buffer},
-                        &stored->buffer);
+    for (uint32_t i = 0; result == LOBE_OK && i < layout->buffer_count; i++)
+        result =
+            lobe_graph_create_buffer(graph,
+                                     &(lobe_buffer_parameters){.name = "numbers of a cached map",
+                                                               .size = layout->buffer_bytes[i],
+                                                               .data = content->buffers[i]},
+                                     &stored->buffers[i]);
+    return result;
 }
 
 void passes_stored_content_free(stored_content *stored) {
     for (uint32_t i = 0; i < KEPT_MAXIMUM_IMAGES; i++)
         lobe_texture_destroy(&stored->rows[i]);
-    lobe_buffer_destroy(&stored->buffer);
+    for (uint32_t i = 0; i < KEPT_MAXIMUM_BUFFERS; i++)
+        lobe_buffer_destroy(&stored->buffers[i]);
     *stored = (stored_content){0};
 }
 

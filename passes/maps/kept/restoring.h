@@ -7,7 +7,7 @@
 /// What was loaded from a file, on the device. All zero: nothing.
 typedef struct stored_content {
     lobe_texture *rows[KEPT_MAXIMUM_IMAGES];
-    lobe_buffer *buffer; ///< NULL: nothing
+    lobe_buffer *buffers[KEPT_MAXIMUM_BUFFERS]; ///< the first is NULL: nothing
 } stored_content;
 
 /// Uploads a file's content for frames of this graph. Free it with passes_stored_content_free, even

@@ -25,7 +25,7 @@ static void begin(model_run *model, fixture *f, lobe_image map, const wu_kind *a
     scene_end(model->scene);
     pass_run_begin(&model->run, f, model->scene, "wu", (const char *const[]){NULL});
     assert_int_equal(passes_device_scene_upload_heights(model->run.scene, &f->host), LOBE_OK);
-    model->build = passes_wu_begin(&model->run.context, 0, asked);
+    model->build = passes_wu_begin(&model->run.context, 0, asked, false);
 }
 
 static void end(model_run *model) {

@@ -49,7 +49,7 @@ typedef struct drawing {
     log_recorder recorder;
     lobe_renderer *renderer;
     const char *filter;
-    const char *settings[4]; ///< assignments, ended by NULL
+    const char *settings[5]; ///< assignments, ended by NULL
     uint32_t parts;
     double stops_at; ///< progress at which the host stops; 0: it does not listen
     double heard;    ///< the last progress
@@ -508,6 +508,71 @@ static void reliefs_are_kept_and_made_in_parts(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+enum { MODEL_PARTS = 5 }; // paths, and levels of 16 x 8, 8 x 4, 2 x 1 and 1 x 1 cells
+
+static void start_models(fixture *f, const lobe_scene *scene, uint32_t parts, drawing *drawing) {
+    start(f, scene, "wu", drawing);
+    drawing->settings[0] = "angular=5";
+    drawing->settings[1] = "points=64";
+    drawing->settings[2] = "patches=2";
+    drawing->parts = parts;
+}
+
+static size_t ran_for_models(const drawing *drawing) {
+    return ran(drawing, "path_vertices") + ran(drawing, "low_lobes") +
+           ran(drawing, "scaling_table") + ran(drawing, "mirror_scaling");
+}
+
+/// Each part runs once.
+static void models_are_kept_and_made_in_parts(void **state) {
+    lobe_scene *scene = relief_square(0.8f);
+    drawing drawing;
+    start_models(*state, scene, 0, &drawing);
+    const uint64_t expected = picture(&drawing, NULL);
+    assert_int_equal(ran_for_models(&drawing), 1 + 3 * (MODEL_PARTS - 1));
+    stop(&drawing);
+    start_models(*state, scene, 1, &drawing);
+    for (uint32_t left = MODEL_PARTS; left-- > 0;) {
+        assert_int_equal(kept(), 0);
+        assert_true((picture(&drawing, test_folder.path) == expected) == (left == 0));
+        assert_int_equal(drawing.parts_left, left);
+        assert_int_equal(ran_for_models(&drawing), left == MODEL_PARTS - 1 ? 1 : 3);
+    }
+    assert_int_equal(kept(), 1);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(ran(&drawing, NULL), 1);
+    stop(&drawing);
+    start_models(*state, scene, 1, &drawing);
+    assert_true(picture(&drawing, test_folder.path) == expected);
+    assert_int_equal(ran_for_models(&drawing), 0);
+    assert_true(picture(&drawing, NULL) == expected);
+    assert_int_equal(ran(&drawing, NULL), 1);
+    stop(&drawing);
+    lobe_scene_destroy(&scene);
+}
+
+/// Heights, their scale and settings have files of their own; colours share one.
+static void what_models_are_made_from_has_its_file(void **state) {
+    size_t files = 0;
+    for (int change = 0; change < 5; change++) {
+        lobe_scene *scene = relief_square(change == 4 ? 0.7f : 0.8f);
+        if (change == 2)
+            turn(scene, 0);
+        if (change == 3)
+            scene->materials[0].height_scale *= 0.5f;
+        drawing drawing;
+        start_models(*state, scene, 0, &drawing);
+        if (change == 1)
+            drawing.settings[3] = "ratio=printed";
+        (void)picture(&drawing, test_folder.path);
+        files += change < 4;
+        assert_int_equal(kept(), files);
+        assert_int_equal(ran_for_models(&drawing) > 0, change < 4);
+        stop(&drawing);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// Heights, their scale, colours and settings have files of their own; what does not matter shares
 /// one.
 static void what_a_relief_is_made_from_has_its_file(void **state) {
@@ -551,6 +616,8 @@ int main(void) {
         IN_TEST_FOLDER(nothing_is_saved_where_nothing_is_fitted),
         IN_TEST_FOLDER(reliefs_are_kept_and_made_in_parts),
         IN_TEST_FOLDER(what_a_relief_is_made_from_has_its_file),
+        IN_TEST_FOLDER(models_are_kept_and_made_in_parts),
+        IN_TEST_FOLDER(what_models_are_made_from_has_its_file),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }
