@@ -64,6 +64,10 @@ bool lobe_filter_fits(const lobe_filter *filter) {
     return filter && filter->save;
 }
 
+bool lobe_filter_shares(const lobe_filter *filter) {
+    return filter && filter->shares;
+}
+
 bool lobe_filter_draws_waves(const lobe_filter *filter) {
     return filter && filter->draws_waves;
 }

@@ -88,6 +88,8 @@ struct lobe_filter {
     /// Saves in a folder what `build` read back of the last frame, whose execution was waited for;
     /// NULL: drops it. The function itself may be NULL: the filter reads nothing back.
     void (*save)(void *slot, const lobe_graph *graph, const char *folder, const lobe_host *host);
+    /// Frames can make a share of what is saved, and join the shares of all (fit_work).
+    bool shares;
     /// Frees what `prepare` put into a slot; never called with NULL. Required if there is a
     /// `prepare`.
     void (*forget)(void *slot);

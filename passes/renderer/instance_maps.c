@@ -64,6 +64,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
     r->fits.parts_left = 0;
+    r->fits.outcome = (fit_outcome){0};
     passes_draw_list_begin(&r->renderer->draws, r->context.scene);
     for (size_t i = 0; i < scene->material_count; i++)
         add_instances(r, &r->context.scene->materials[i], frame);

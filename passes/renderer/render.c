@@ -134,6 +134,11 @@ static lobe_result update_caches(rendering *r) {
                : result;
 }
 
+lobe_result passes_rendering_begin(rendering *r) {
+    const lobe_result result = prepare(r);
+    return result == LOBE_OK ? update_caches(r) : result;
+}
+
 /// One submission for each part of the environment's maps, reported to the host: `*stopped` if it
 /// wants no more. The maps of instances are declared, but not made, so that they are kept.
 static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *stopped) {
@@ -154,30 +159,6 @@ static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *st
     }
     r->environment.parts = 0;
     r->fits.parts = fits;
-    return result;
-}
-
-/// One submission for each part of the maps that are fitted to materials, as above. How many there
-/// are shows when they are declared.
-static lobe_result prepare_fits(rendering *r, lobe_frame *frame, bool *stopped) {
-    static const frame_delivery none = {0};
-    const lobe_render_host *host = &r->parameters->host;
-    lobe_result result = LOBE_OK;
-    uint32_t count = 0;
-    while (result == LOBE_OK && !*stopped) {
-        lobe_graph_begin(r->renderer->graph);
-        r->fits.parts = 1;
-        passes_instance_maps_build(r, frame);
-        const uint32_t left = r->fits.parts_left + (r->fits.parts == 0);
-        if (left == 0)
-            break;
-        count = count > 0 ? count : left;
-        (void)passes_shading_light_prepare(&r->context, &r->environment);
-        result = passes_delivery_run(r, &none, frame);
-        *stopped = result == LOBE_OK &&
-                   !host->fits_progress(host->user, (count - r->fits.parts_left) / (double)count);
-    }
-    r->fits.parts = UINT32_MAX;
     return result;
 }
 
@@ -204,11 +185,12 @@ static void invalidate_maps(const rendering *r) {
 
 static lobe_result draw(rendering *r, lobe_frame *frame) {
     const frame_delivery delivery = passes_delivery_of(r->parameters);
+    const lobe_render_host *host = &r->parameters->host;
     bool stopped = false;
     lobe_result result =
         prepares_environment(r->parameters) ? prepare_environment(r, frame, &stopped) : LOBE_OK;
     if (result == LOBE_OK && !stopped && prepares_fits(r))
-        result = prepare_fits(r, frame, &stopped);
+        result = passes_fits_make(r, frame, host->fits_progress, host->user, &stopped);
     if (stopped)
         lobe_frame_free(frame);
     if (result != LOBE_OK || stopped)
@@ -231,9 +213,7 @@ lobe_result lobe_renderer_render(lobe_renderer *renderer, const lobe_render_para
         .width = parameters->width ? parameters->width : 1280,
         .height = parameters->height ? parameters->height : 720,
     };
-    lobe_result result = prepare(&r);
-    if (result == LOBE_OK)
-        result = update_caches(&r);
+    lobe_result result = passes_rendering_begin(&r);
     if (result != LOBE_OK)
         return result;
     passes_instance_maps_warn(&r);

@@ -55,6 +55,16 @@ void passes_instance_maps_warn(const rendering *r);
 /// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.
 void passes_instance_maps_build(rendering *r, lobe_frame *frame);
 
+/// Checks the parameters, fills the context, saves what the last frame read back, and loads what
+/// this one needs of the environment.
+lobe_result passes_rendering_begin(rendering *r);
+
+/// Makes the maps that are fitted to materials, in one submission for each part of the work. How
+/// many there are shows when they are declared. `*stopped`: `progress` (may be NULL) returned
+/// false. Otherwise the graph is left with all maps declared.
+lobe_result passes_fits_make(rendering *r, lobe_frame *frame,
+                             bool (*progress)(void *user, double part), void *user, bool *stopped);
+
 /// Saves the fitted maps that the last frame read back. It must have been waited for.
 void passes_fits_save(rendering *r);
 

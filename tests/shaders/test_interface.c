@@ -179,6 +179,7 @@ static known_member known[] = {
     MEMBER(transfer_constants, first, 3),
     MEMBER(transfer_constants, channel, 4),
     MEMBER(transfer_constants, first_thread, 5),
+    MEMBER(transfer_constants, first_facet, 6),
     MEMBER(colour_constants, base_colour, 0),
     MEMBER(colour_constants, width, 1),
     MEMBER(colour_constants, height, 2),

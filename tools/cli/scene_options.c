@@ -216,6 +216,20 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
     return status;
 }
 
+lobe_result scene_options_open_material(const scene_options *options, const char *folder,
+                                        lobe_carrier carrier, const lobe_host *host,
+                                        lobe_scene **result) {
+    const lobe_scene_open_parameters parameters = {
+        .scene = folder,
+        .own_light_only = scene_options_give_light(options),
+        .carrier = &carrier,
+    };
+    lobe_result status = lobe_scene_open_with(&parameters, host, result);
+    if (status == LOBE_OK)
+        status = scene_options_light(options, host, *result);
+    return status;
+}
+
 bool scene_options_lack_assets(const char *scene, lobe_result result) {
     return result == LOBE_ERROR_NOT_FOUND && scene_list_needs_assets(scene);
 }

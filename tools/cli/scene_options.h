@@ -44,6 +44,11 @@ lobe_result scene_options_light(const scene_options *options, const lobe_host *h
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result);
 
+/// Opens a folder of PBR maps on a carrier, and applies the options.
+lobe_result scene_options_open_material(const scene_options *options, const char *folder,
+                                        lobe_carrier carrier, const lobe_host *host,
+                                        lobe_scene **result);
+
 /// Whether `result`, from opening `scene`, only means that its assets are missing, so that other
 /// scenes can still be measured.
 bool scene_options_lack_assets(const char *scene, lobe_result result);

@@ -16,6 +16,7 @@ extern const subcommand bench_subcommand;
 extern const subcommand report_subcommand;
 extern const subcommand compare_subcommand;
 extern const subcommand environment_subcommand;
+extern const subcommand prepare_subcommand;
 extern const subcommand scenes_subcommand;
 extern const subcommand filters_subcommand;
 extern const subcommand info_subcommand;

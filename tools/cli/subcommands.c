@@ -6,9 +6,19 @@
 #include "tools/cli/closest_name.h"
 
 const subcommand *const subcommands[] = {
-    &render_subcommand,  &view_subcommand,        &bench_subcommand,      &report_subcommand,
-    &compare_subcommand, &environment_subcommand, &scenes_subcommand,     &filters_subcommand,
-    &info_subcommand,    &manual_subcommand,      &completion_subcommand, NULL,
+    &render_subcommand,
+    &view_subcommand,
+    &bench_subcommand,
+    &report_subcommand,
+    &compare_subcommand,
+    &environment_subcommand,
+    &prepare_subcommand,
+    &scenes_subcommand,
+    &filters_subcommand,
+    &info_subcommand,
+    &manual_subcommand,
+    &completion_subcommand,
+    NULL,
 };
 
 const subcommand *subcommand_find(const char *name) {

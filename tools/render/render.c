@@ -5,6 +5,7 @@
 
 #include "tools/animation/animation.h"
 #include "tools/choice/budget.h"
+#include "tools/choice/filter_choice.h"
 #include "tools/cli/cache_options.h"
 #include "tools/cli/console.h"
 #include "tools/cli/device_options.h"
@@ -135,15 +136,8 @@ static int choose_filter(render_request *request, const lobe_host *host) {
         return 0; // picked once scene and device are known
     if (!request->has_filter)
         request->filter_name = scene_list_filter(request->scene);
-    if (lobe_filter_find(request->filter_name, host, &request->filter) != LOBE_OK)
-        return 2;
-    lobe_settings_default(request->filter, &request->settings);
-    for (size_t i = 0; i < request->assignments.count; i++) {
-        if (lobe_settings_set(request->filter, &request->settings, request->assignments.values[i],
-                              host) != LOBE_OK)
-            return 2;
-    }
-    return 0;
+    return filter_choice_make(request->filter_name, &request->assignments, host, &request->filter,
+                              &request->settings);
 }
 
 static void warn_of_what_is_ignored(const render_request *request, const lobe_host *host) {
@@ -164,18 +158,10 @@ static void warn_of_what_is_ignored(const render_request *request, const lobe_ho
 
 static lobe_result open_scene(render_request *request, render_state *state) {
     request->opening.has_lights = request->view.lights.count > 0;
-    if (request->material) {
-        const lobe_carrier carrier = (lobe_carrier)request->carrier;
-        const lobe_scene_open_parameters parameters = {
-            .scene = request->material,
-            .own_light_only = scene_options_give_light(&request->opening),
-            .carrier = &carrier,
-        };
-        lobe_result result = lobe_scene_open_with(&parameters, &state->host, &state->scene);
-        return result == LOBE_OK
-                   ? scene_options_light(&request->opening, &state->host, state->scene)
-                   : result;
-    }
+    if (request->material)
+        return scene_options_open_material(&request->opening, request->material,
+                                           (lobe_carrier)request->carrier, &state->host,
+                                           &state->scene);
     return scene_options_open(&request->opening, request->scene, request->size, &state->host,
                               &state->scene);
 }

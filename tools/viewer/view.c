@@ -2,6 +2,7 @@
 
 #include <lobe/lobe.h>
 
+#include "tools/choice/filter_choice.h"
 #include "tools/cli/console.h"
 #include "tools/cli/subcommand.h"
 #include "tools/manual/roff.h"
@@ -18,14 +19,8 @@ typedef struct view_texts {
 
 static int choose_filter(const view_texts *texts, viewer_request *request, const lobe_host *host) {
     const char *name = texts->has_filter ? texts->filter_name : scene_list_filter(request->scene);
-    if (lobe_filter_find(name, host, &request->filter) != LOBE_OK)
-        return 2;
-    lobe_settings_default(request->filter, &request->settings);
-    for (size_t i = 0; i < texts->assignments.count; i++)
-        if (lobe_settings_set(request->filter, &request->settings, texts->assignments.values[i],
-                              host) != LOBE_OK)
-            return 2;
-    return 0;
+    return filter_choice_make(name, &texts->assignments, host, &request->filter,
+                              &request->settings);
 }
 
 static int check_usage(const option_table *table, const viewer_request *request) {

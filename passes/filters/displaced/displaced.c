@@ -191,6 +191,7 @@ const lobe_filter passes_filter_displaced = {
     .prepare = prepare,
     .adapts_to_texels = true,
     .save = passes_kept_save,
+    .shares = true,
     .forget = passes_kept_forget,
     .build = build,
     .ignores = ignores,

@@ -63,30 +63,105 @@ static bool has_texels(const filter_context *context, const device_material *mat
     return true;
 }
 
+/// What the maps take.
+static kept_layout layout_of_maps(const device_material *material, const transfer_kind *kind) {
+    kept_layout layout = {.what = "relief",
+                          .buffer_bytes = {sizeof(struct transfer_closure_constants)},
+                          .buffer_count = 1};
+    layout.image_count = passes_transfer_images(material, kind, layout.images);
+    return layout;
+}
+
+/// A share's file has what a range of facets sees.
+static kept_layout layout_of_share(const filter_context *context, uint32_t index, const void *user,
+                                   uint32_t share) {
+    const uint32_t shares = context->work->shares;
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    const facet_range range = passes_facets_share(heights, share, shares);
+    kept_layout layout = {.what = "relief", .share = share, .shares = shares};
+    if (range.count == 0)
+        return layout;
+    layout.buffer_count = 3;
+    passes_facets_bytes(range, user, layout.buffer_bytes);
+    return layout;
+}
+
+/// The facets that a frame sees to, where it makes a share.
+static facet_range range_of_share(const filter_context *context, uint32_t index) {
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    return passes_facets_share(heights, context->work->share, context->work->shares);
+}
+
+static bool makes_share(const filter_context *context) {
+    return context->work && !context->work->is_dry && context->work->share > 0;
+}
+
+/// Joining takes one part.
+static uint32_t part_count(const filter_context *context, uint32_t index,
+                           const transfer_kind *kind) {
+    if (makes_share(context))
+        return passes_facets_part_count(range_of_share(context, index), kind);
+    return context->work->shares > 0
+               ? 1
+               : passes_transfer_part_count(&context->scene->materials[index], kind);
+}
+
 lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t index,
                                          const transfer_kind *kind, void **slot) {
     const device_material *material = &context->scene->materials[index];
-    if (!context->work || context->work->is_dry || !passes_has_relief(material) ||
-        !passes_transfer_fits(material, kind))
+    const fit_work *work = context->work;
+    if (!work || work->is_dry || !passes_has_relief(material) ||
+        !passes_facets_fit(&material->maps[MAP_HEIGHT], kind))
         return LOBE_OK;
-    kept_subject subject = {
-        .kind = kind_digest(kind),
+    const kept_subject subject = {
+        .kind = passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares),
         .inputs = inputs_digest(material, kind),
-        .parts = passes_transfer_part_count(material, kind),
+        .parts = part_count(context, index, kind),
         .has_texels = has_texels(context, material, kind),
-        .layout = {.what = "relief",
-                   .buffer_bytes = {sizeof(struct transfer_closure_constants)},
-                   .buffer_count = 1},
+        .layout = makes_share(context) ? layout_of_share(context, index, kind, work->share)
+                                       : layout_of_maps(material, kind),
+        .share = layout_of_share,
         .key = key,
         .user = kind,
     };
-    subject.layout.image_count = passes_transfer_images(material, kind, subject.layout.images);
-    return passes_kept_prepare(context, index, &subject, slot);
+    return subject.layout.buffer_count > 0 ? passes_kept_prepare(context, index, &subject, slot)
+                                           : LOBE_OK;
+}
+
+/// What the facets of the frame's share see is all that is made.
+static void build_share(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                        const void *prepared) {
+    if (!prepared || passes_kept_stored(context, prepared))
+        return;
+    bool in_parts;
+    const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
+    const relief relief = passes_relief(context, index, in_parts);
+    const seen_facets seen = passes_facets(context->graph, index, &relief, kind,
+                                           range_of_share(context, index), parts, in_parts);
+    const lobe_resource buffers[] = {seen.words, seen.links, seen.basis};
+    (void)passes_kept_built(context, prepared, NULL, buffers);
+}
+
+static transfer_map make(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                         const void *prepared, const relief *relief, uint32_t parts,
+                         bool in_parts) {
+    const stored_content *joined = passes_kept_joined(context, prepared);
+    if (!joined)
+        return passes_transfer_map(context, index, kind, relief, NULL, parts, in_parts);
+    const seen_facets seen = {.words = lobe_graph_import_buffer(context->graph, joined->buffers[0]),
+                              .links = lobe_graph_import_buffer(context->graph, joined->buffers[1]),
+                              .basis =
+                                  lobe_graph_import_buffer(context->graph, joined->buffers[2])};
+    return passes_transfer_map(context, index, kind, relief, &seen, parts, in_parts);
 }
 
 bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
                                 const transfer_kind *kind, const void *prepared, bool near,
                                 transfer_map *transfer, relief *relief) {
+    if (makes_share(context)) {
+        build_share(context, index, kind, prepared);
+        return false;
+    }
     const stored_content *stored = passes_kept_stored(context, prepared);
     if (stored) {
         if (near)
@@ -101,7 +176,7 @@ bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
     *relief = passes_relief(context, index, near || in_parts);
-    *transfer = passes_transfer_map(context, index, kind, relief, parts, in_parts);
+    *transfer = make(context, index, kind, prepared, relief, parts, in_parts);
     const lobe_resource images[] = {transfer->map.resource, transfer->facets.resource};
     return passes_kept_built(context, prepared, images, &transfer->closure);
 }

@@ -12,12 +12,9 @@ typedef struct transfer_build {
     lobe_graph *graph;
     const transfer_kind *kind;
     uint32_t material;
-    bool in_parts; ///< what later parts need is kept between frames
     relief relief;
     uint32_t facets;
-    lobe_resource basis; ///< struct transfer_basis_constants
-    lobe_resource words; ///< b of each facet
-    lobe_resource links;
+    seen_facets seen;
     lobe_resource colours;       ///< if they vary, otherwise anything
     lobe_resource first, others; ///< light from other facets: that has met one; all
 } transfer_build;
@@ -26,149 +23,6 @@ static lobe_resource declare_facets(const transfer_build *build, const char *nam
     return lobe_graph_buffer(
         build->graph,
         &(lobe_buffer_description){.name = name, .size = (size_t)build->facets * bytes});
-}
-
-/// What colours do not change outlives the frame where these can, and what later parts need.
-static lobe_resource declare_kept(const transfer_build *build, const char *name, size_t size) {
-    char of_material[64];
-    snprintf(of_material, sizeof of_material, "%s of material %u", name, build->material);
-    return lobe_graph_buffer(
-        build->graph,
-        &(lobe_buffer_description){.name = of_material,
-                                   .size = size,
-                                   .retained = build->kind->coloured || build->in_parts});
-}
-
-static struct transfer_constants constants_of(const transfer_build *build) {
-    return (struct transfer_constants){.width = build->relief.constants.width,
-                                       .height = build->relief.constants.height,
-                                       .azimuths = build->kind->azimuths};
-}
-
-/// The map's number of functions, and whether its colours vary, as constants of a shader.
-typedef struct kind_specialisation {
-    lobe_specialisation items[2];
-} kind_specialisation;
-
-static kind_specialisation specialisation_of(const transfer_kind *kind) {
-    return (kind_specialisation){
-        {{SPECIALISE_TRANSFER_ORDER, kind->order}, {SPECIALISE_TRANSFER_COLOURED, kind->coloured}}};
-}
-
-static uint32_t basis_cells(uint32_t quads) {
-    const uint32_t cells = (quads + TRANSFER_BASIS_CELL - 1) / TRANSFER_BASIS_CELL;
-    return cells < TRANSFER_BASIS_MAXIMUM ? cells : TRANSFER_BASIS_MAXIMUM;
-}
-
-static void add_basis(transfer_build *build) {
-    const uint32_t across = basis_cells(build->relief.constants.width),
-                   down = basis_cells(build->relief.constants.height), count = across * down;
-    lobe_resource cells = lobe_graph_buffer(
-        build->graph, &(lobe_buffer_description){.name = "cells of basis",
-                                                 .size = (size_t)count * TRANSFER_BASIS_TERMS *
-                                                         TRANSFER_BASIS_TERMS * sizeof(float)});
-    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "basis_cells");
-    passes_relief_read(&build->relief, pass);
-    cells = lobe_pass_write(pass, &(lobe_binding){.name = "cell_block", .resource = cells});
-    const struct transfer_constants constants = constants_of(build);
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/basis_cells.comp",
-                                              .threads = {across * TRANSFER_BASIS_POINTS,
-                                                          down * TRANSFER_BASIS_POINTS},
-                                              .constants = &constants,
-                                              .constants_size = sizeof constants});
-    pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "transfer_basis");
-    lobe_pass_read(pass, &(lobe_binding){.name = "cell_block", .resource = cells});
-    build->basis = lobe_pass_write(
-        pass, &(lobe_binding){.name = "basis_block",
-                              .resource = declare_kept(build, "functions of directions",
-                                                       sizeof(struct transfer_basis_constants))});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/transfer_basis.comp",
-                                              .threads = {TRANSFER_BASIS_TERMS},
-                                              .constants = &count,
-                                              .constants_size = sizeof count});
-}
-
-/// Threads of a pass that takes long are spread over several, so that each takes less than a second
-/// on lavapipe.
-typedef struct thread_bands {
-    uint32_t threads; ///< in all
-    uint32_t of_each; ///< but the last: a multiple of a group's
-} thread_bands;
-
-/// One thread a quad.
-static thread_bands transfer_bands(uint32_t facets, const transfer_kind *kind) {
-    enum { GROUP = 64, MOST_HORIZONS = 1 << 18 };
-    return (thread_bands){facets / 2, MOST_HORIZONS / kind->azimuths / GROUP * GROUP};
-}
-
-/// One thread a facet.
-static thread_bands link_bands(uint32_t facets) {
-    enum { MOST_FACETS = 1 << 17 };
-    return (thread_bands){facets, MOST_FACETS};
-}
-
-static uint32_t band_count(thread_bands bands) {
-    return (bands.threads + bands.of_each - 1) / bands.of_each;
-}
-
-/// What the bands of a pass write, and the shader's name.
-typedef struct banded_pass {
-    const char *name, *shader;
-    const char *target;
-    bool reads_basis;
-} banded_pass;
-
-static lobe_pass *add_band(const transfer_build *build, const banded_pass *banded,
-                           thread_bands bands, uint32_t band, lobe_resource *target) {
-    lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, banded->name);
-    passes_relief_read(&build->relief, pass);
-    if (banded->reads_basis)
-        lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->basis});
-    const lobe_binding written = {.name = banded->target, .resource = *target};
-    *target = band == 0 ? lobe_pass_write(pass, &written) : lobe_pass_modify(pass, &written);
-    struct transfer_constants constants = constants_of(build);
-    constants.first_thread = band * bands.of_each;
-    const uint32_t left = bands.threads - constants.first_thread;
-    const kind_specialisation kind = specialisation_of(build->kind);
-    lobe_pass_dispatch(pass,
-                       &(lobe_dispatch){.shader = banded->shader,
-                                        .threads = {left < bands.of_each ? left : bands.of_each},
-                                        .constants = &constants,
-                                        .constants_size = sizeof constants,
-                                        .specialisation = kind.items,
-                                        .specialisation_count = 2});
-    return pass;
-}
-
-/// Adds up to `most` bands, and returns their number. Only the last one is kept: it needs those
-/// before it, whose own results are no longer there once it has run.
-static uint32_t add_bands(const transfer_build *build, const banded_pass *banded,
-                          thread_bands bands, uint32_t most, lobe_resource *target) {
-    const uint32_t all = band_count(bands), count = all < most ? all : most;
-    lobe_pass *last = NULL;
-    for (uint32_t band = 0; band < count; band++)
-        last = add_band(build, banded, bands, band, target);
-    if (build->in_parts && last)
-        lobe_pass_keep(last);
-    return count;
-}
-
-static uint32_t add_transfer(transfer_build *build, uint32_t most) {
-    static const banded_pass banded = {"facet_transfer", "filters/displaced/facet_transfer.comp",
-                                       "transfer_words", true};
-    build->words =
-        declare_kept(build, "transfer of facets",
-                     build->facets * TRANSFER_WORDS(build->kind->order) * sizeof(uint32_t));
-    return add_bands(build, &banded, transfer_bands(build->facets, build->kind), most,
-                     &build->words);
-}
-
-static uint32_t add_links(transfer_build *build, uint32_t most) {
-    static const banded_pass banded = {"facet_links", "filters/displaced/facet_links.comp",
-                                       "link_block", false};
-    build->links =
-        declare_kept(build, "links of facets", build->facets * TRANSFER_LINKS * sizeof(uint32_t));
-    return add_bands(build, &banded, link_bands(build->facets), most, &build->links);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -239,20 +93,20 @@ static void add_colours(const filter_context *context, transfer_build *build) {
 
 static lobe_resource add_bounce(const transfer_build *build, uint32_t channel, bool is_first) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "facet_bounces");
-    lobe_pass_read(pass, &(lobe_binding){.name = "transfer_words", .resource = build->words});
-    lobe_pass_read(pass, &(lobe_binding){.name = "link_block", .resource = build->links});
+    lobe_pass_read(pass, &(lobe_binding){.name = "transfer_words", .resource = build->seen.words});
+    lobe_pass_read(pass, &(lobe_binding){.name = "link_block", .resource = build->seen.links});
     lobe_pass_read(pass, &(lobe_binding){.name = "colour_words", .resource = build->colours});
     // The first step reads no light: any buffer is bound.
     lobe_pass_read(pass, &(lobe_binding){.name = "source_block",
-                                         .resource = is_first ? build->links : build->others});
+                                         .resource = is_first ? build->seen.links : build->others});
     const lobe_resource light = lobe_pass_write(
         pass, &(lobe_binding){.name = "target_block",
                               .resource = declare_facets(build, "light between facets",
                                                          TRANSFER_INDIRECT * sizeof(float))});
-    struct transfer_constants constants = constants_of(build);
+    struct transfer_constants constants = passes_transfer_constants(&build->relief, build->kind);
     constants.first = is_first;
     constants.channel = channel;
-    const kind_specialisation kind = specialisation_of(build->kind);
+    const kind_specialisation kind = passes_transfer_specialisation(build->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/facet_bounces.comp",
                                               .threads = {build->facets},
                                               .constants = &constants,
@@ -287,14 +141,14 @@ static void write_cells(reduced_map *map, lobe_pass *pass, const transfer_kind *
 static void add_cells(const transfer_build *build, uint32_t channel, reduced_map *map) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "cell_transfer");
     passes_relief_read(&build->relief, pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "transfer_words", .resource = build->words});
+    lobe_pass_read(pass, &(lobe_binding){.name = "transfer_words", .resource = build->seen.words});
     lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = build->others});
     lobe_pass_read(pass, &(lobe_binding){.name = "first_block", .resource = build->first});
     lobe_pass_read(pass, &(lobe_binding){.name = "colour_words", .resource = build->colours});
     write_cells(map, pass, build->kind, channel);
-    struct transfer_constants constants = constants_of(build);
+    struct transfer_constants constants = passes_transfer_constants(&build->relief, build->kind);
     constants.channel = channel;
-    const kind_specialisation kind = specialisation_of(build->kind);
+    const kind_specialisation kind = passes_transfer_specialisation(build->kind);
     lobe_dispatch dispatch = {.shader = "filters/displaced/cell_transfer.comp",
                               .constants = &constants,
                               .constants_size = sizeof constants,
@@ -307,7 +161,8 @@ static void add_normals(const transfer_build *build, reduced_map *map) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "facet_normals");
     passes_relief_read(&build->relief, pass);
     passes_reduced_map_write(map, pass, "facet_map", 0);
-    const struct transfer_constants constants = constants_of(build);
+    const struct transfer_constants constants =
+        passes_transfer_constants(&build->relief, build->kind);
     lobe_dispatch dispatch = {.shader = "filters/displaced/facet_normals.comp",
                               .constants = &constants,
                               .constants_size = sizeof constants};
@@ -323,7 +178,7 @@ static lobe_resource add_closure(const transfer_build *build, const reduced_map 
                                          .range = {map->levels - 1, 1, 0, map->layers}});
     lobe_pass_read(
         pass, &(lobe_binding){.name = "height_extent_block", .resource = build->relief.extent});
-    lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->basis});
+    lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->seen.basis});
     const lobe_resource closure = lobe_pass_write(
         pass,
         &(lobe_binding){.name = "closure_block",
@@ -332,26 +187,11 @@ static lobe_resource add_closure(const transfer_build *build, const reduced_map 
                                               .name = name,
                                               .size = sizeof(struct transfer_closure_constants),
                                               .retained = true})});
-    const kind_specialisation kind = specialisation_of(build->kind);
+    const kind_specialisation kind = passes_transfer_specialisation(build->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/transfer_closure.comp",
                                               .specialisation = kind.items,
                                               .specialisation_count = 2});
     return closure;
-}
-
-/// What Vulkan asks of every device: buffers of 128 MiB.
-#define LARGEST_BUFFER ((uint64_t)1 << 27)
-
-/// Of each facet, words, links, and light of four functions.
-static uint64_t words_of_facet(const transfer_kind *kind) {
-    const uint64_t words = TRANSFER_WORDS(kind->order);
-    return words > TRANSFER_LINKS ? words : TRANSFER_LINKS;
-}
-
-bool passes_transfer_fits(const device_material *material, const transfer_kind *kind) {
-    const device_map *map = &material->maps[MAP_HEIGHT];
-    const uint64_t facets = 2 * (uint64_t)map->width * map->height;
-    return facets * words_of_facet(kind) * sizeof(uint32_t) <= LARGEST_BUFFER;
 }
 
 static void fail_size(const filter_context *context, const device_material *material,
@@ -361,8 +201,7 @@ static void fail_size(const filter_context *context, const device_material *mate
                     "%s: a height map of %u x %u texels is too large for filter '%s': it has more "
                     "than %.1f million",
                     material->material->name, map->width, map->height,
-                    lobe_filter_name(context->filter),
-                    (double)(LARGEST_BUFFER / words_of_facet(kind) / 8) * 1e-6);
+                    lobe_filter_name(context->filter), passes_facets_limit(kind));
 }
 
 transfer_map passes_transfer_map_declare(const filter_context *context, uint32_t index,
@@ -392,15 +231,17 @@ uint32_t passes_transfer_images(const device_material *material, const transfer_
     return kind->normals ? 2 : 1;
 }
 
+static facet_range all_facets(const device_material *material) {
+    return passes_facets_share(&material->maps[MAP_HEIGHT], 1, 1);
+}
+
 uint32_t passes_transfer_part_count(const device_material *material, const transfer_kind *kind) {
-    const device_map *heights = &material->maps[MAP_HEIGHT];
-    const uint32_t facets = 2 * heights->width * heights->height;
-    return band_count(transfer_bands(facets, kind)) + band_count(link_bands(facets)) + 1;
+    return passes_facets_part_count(all_facets(material), kind) + 1;
 }
 
 /// Light between facets, the map and what belongs to it.
 static void add_map(const filter_context *context, transfer_build *build, transfer_map *result) {
-    build->colours = build->links;
+    build->colours = build->seen.links;
     if (build->kind->coloured)
         add_colours(context, build);
     for (uint32_t channel = 0; channel < (build->kind->coloured ? 3 : 1); channel++) {
@@ -416,26 +257,25 @@ static void add_map(const filter_context *context, transfer_build *build, transf
 }
 
 transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
-                                 const transfer_kind *kind, const relief *relief, uint32_t parts,
-                                 bool in_parts) {
+                                 const transfer_kind *kind, const relief *relief,
+                                 const seen_facets *seen, uint32_t parts, bool in_parts) {
     const device_material *material = &context->scene->materials[index];
-    if (!passes_transfer_fits(material, kind)) {
+    if (!passes_facets_fit(&material->maps[MAP_HEIGHT], kind)) {
         fail_size(context, material, kind);
         return (transfer_map){0};
     }
+    const facet_range all = all_facets(material);
     transfer_build build = {
         .graph = context->graph,
         .kind = kind,
         .material = index,
-        .in_parts = in_parts,
         .relief = *relief,
+        .facets = all.count,
     };
-    build.facets = 2 * build.relief.constants.width * build.relief.constants.height;
     transfer_map result = passes_transfer_map_declare(context, index, kind);
-    add_basis(&build);
-    parts -= add_transfer(&build, parts);
-    parts -= add_links(&build, parts);
-    if (parts > 0)
+    build.seen =
+        seen ? *seen : passes_facets(context->graph, index, relief, kind, all, parts, in_parts);
+    if (seen || parts > passes_facets_part_count(all, kind))
         add_map(context, &build, &result);
     return result;
 }

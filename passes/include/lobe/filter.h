@@ -60,6 +60,8 @@ LOBE_API const char *lobe_filter_paper(const lobe_filter *filter);   ///< its so
 LOBE_API bool lobe_filter_supersamples(const lobe_filter *filter);
 /// True for filters that fit maps to materials: see lobe_render_fits.
 LOBE_API bool lobe_filter_fits(const lobe_filter *filter);
+/// Whether several processes can share the work of fitting: see lobe_fitting_parameters.
+LOBE_API bool lobe_filter_shares(const lobe_filter *filter);
 /// Whether it draws the waves of materials (lobe_waves); false for NULL.
 LOBE_API bool lobe_filter_draws_waves(const lobe_filter *filter);
 

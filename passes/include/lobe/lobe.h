@@ -16,6 +16,7 @@
 #include <lobe/exr.h>
 #include <lobe/file.h>
 #include <lobe/filter.h>
+#include <lobe/fitting.h>
 #include <lobe/graph.h>
 #include <lobe/host.h>
 #include <lobe/image.h>

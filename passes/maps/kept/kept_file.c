@@ -77,13 +77,16 @@ static file_header header_of(uint64_t key, const kept_layout *layout, const uint
                          .checksum = passes_digest_bytes(0, content, bytes)};
 }
 
-/// The caller frees it with lobe_release. NULL if out of memory.
-static char *path_of(const lobe_host *host, const char *folder, uint64_t key,
-                     const kept_layout *layout) {
-    const size_t size = strlen(folder) + strlen(layout->what) + 24;
+char *passes_kept_file_path(const char *folder, uint64_t key, const kept_layout *layout,
+                            const lobe_host *host) {
+    char share[32] = "";
+    if (layout->shares > 0)
+        snprintf(share, sizeof share, "-%u-of-%u", layout->share, layout->shares);
+    const size_t size = strlen(folder) + strlen(layout->what) + strlen(share) + 24;
     char *path = lobe_allocate(lobe_host_allocator(host), size, 1);
     if (path)
-        snprintf(path, size, "%s/%s.%s", folder, passes_digest_print(key).text, layout->what);
+        snprintf(path, size, "%s/%s.%s%s", folder, passes_digest_print(key).text, layout->what,
+                 share);
     return path;
 }
 
@@ -121,7 +124,7 @@ static bool load_file(const char *path, uint64_t key, const kept_layout *layout,
 bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *layout,
                            const lobe_host *host, kept_content *content) {
     *content = (kept_content){0};
-    char *path = path_of(host, folder, key, layout);
+    char *path = passes_kept_file_path(folder, key, layout, host);
     const bool there = path && access(path, F_OK) == 0;
     const bool loaded = there && load_file(path, key, layout, host, content);
     if (there && !loaded)
@@ -160,12 +163,22 @@ static lobe_result save_file(const char *path, uint64_t key, const kept_layout *
     return result;
 }
 
-void passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
+bool passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
                            const void *const *images, const void *const *buffers,
                            const lobe_host *host) {
-    char *path = path_of(host, folder, key, layout);
-    if (!path || save_file(path, key, layout, images, buffers, host) != LOBE_OK)
+    char *path = passes_kept_file_path(folder, key, layout, host);
+    const bool saved = path && save_file(path, key, layout, images, buffers, host) == LOBE_OK;
+    if (!saved)
         lobe_host_log(host, LOBE_LOG_WARNING, "%s: cannot save the %s in this folder", folder,
                       layout->what);
+    lobe_release(path);
+    return saved;
+}
+
+void passes_kept_file_remove(const char *folder, uint64_t key, const kept_layout *layout,
+                             const lobe_host *host) {
+    char *path = passes_kept_file_path(folder, key, layout, host);
+    if (path)
+        remove(path);
     lobe_release(path);
 }

@@ -30,6 +30,7 @@ typedef struct kept_layout {
     uint32_t image_count;
     uint32_t buffer_bytes[KEPT_MAXIMUM_BUFFERS]; ///< multiples of four, not 0
     uint32_t buffer_count;
+    uint32_t share, shares; ///< the file is one of several, counted from 1 on; 0, 0: the only one
 } kept_layout;
 
 /// A file in host memory.
@@ -49,10 +50,18 @@ bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *
 /// Zeroes the structure.
 void passes_kept_content_free(kept_content *content);
 
-/// Saves a file. `images`: of each, texels level by level, layer by layer. Logs a warning if that
-/// fails.
-void passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
+/// Saves a file. `images`: of each, texels level by level, layer by layer. False, with a warning,
+/// if that fails.
+bool passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
                            const void *const *images, const void *const *buffers,
                            const lobe_host *host);
+
+/// Removes a file, if it is there.
+void passes_kept_file_remove(const char *folder, uint64_t key, const kept_layout *layout,
+                             const lobe_host *host);
+
+/// The path of a file. The caller frees it with lobe_release. NULL if out of memory.
+char *passes_kept_file_path(const char *folder, uint64_t key, const kept_layout *layout,
+                            const lobe_host *host);
 
 #endif

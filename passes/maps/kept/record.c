@@ -1,6 +1,7 @@
 #include "passes/maps/kept/record.h"
 
 #include "passes/context/fit_work.h"
+#include "passes/maps/kept/joining.h"
 
 /// What a frame reads back, to be saved.
 typedef struct kept_reading {
@@ -17,9 +18,12 @@ struct kept_record {
     uint32_t done; ///< parts that frames had until now, this one included
     bool in_parts; ///< what later parts need is kept between frames
     bool looked_up, settled;
+    bool saved;   ///< the folder has them by now
     uint64_t key; ///< of the file, once looked up
     kept_layout layout;
     stored_content stored;
+    stored_content joined; ///< of shares
+    uint32_t shares;       ///< that were joined
     kept_reading *reading; ///< owned
 };
 
@@ -47,6 +51,7 @@ static void update(kept_record *record, const kept_subject *subject) {
     if (!other_kind && record->inputs == subject->inputs)
         return;
     passes_stored_content_free(&record->stored);
+    passes_stored_content_free(&record->joined);
     *record = (kept_record){.kind = subject->kind,
                             .inputs = subject->inputs,
                             .changed = !other_kind,
@@ -62,6 +67,16 @@ static bool fits_the_device(const fit_work *work, const kept_layout *layout) {
     return true;
 }
 
+static bool joins(const fit_work *work) {
+    return work->shares > 0 && work->share == 0;
+}
+
+static lobe_result join(const filter_context *context, uint32_t index, const kept_subject *subject,
+                        kept_record *record) {
+    record->shares = context->work->shares;
+    return passes_kept_join(context, index, subject, record->key, &record->joined);
+}
+
 static lobe_result look_up(const filter_context *context, uint32_t index,
                            const kept_subject *subject, kept_record *record) {
     const fit_work *work = context->work;
@@ -71,9 +86,10 @@ static lobe_result look_up(const filter_context *context, uint32_t index,
         return LOBE_OK;
     record->looked_up = true;
     record->key = subject->key(context, index, subject->user);
-    if (record->done > 0 ||
-        !passes_kept_file_load(work->cache, record->key, &subject->layout, context->host, &content))
+    if (record->done > 0)
         return LOBE_OK;
+    if (!passes_kept_file_load(work->cache, record->key, &subject->layout, context->host, &content))
+        return subject->share && joins(work) ? join(context, index, subject, record) : LOBE_OK;
     const lobe_result result =
         passes_stored_content_create(context->graph, &subject->layout, &content, &record->stored);
     passes_kept_content_free(&content);
@@ -97,6 +113,14 @@ static void advance(const filter_context *context, const kept_subject *subject,
     work->parts_left += record->part_count - record->done;
 }
 
+static void count(fit_outcome *outcome, const kept_record *record) {
+    const bool is_whole = record->done == record->part_count;
+    outcome->found += record->stored.buffers[0] != NULL;
+    outcome->made += record->saved;
+    outcome->unsaved += is_whole && record->settled && !record->saved && !record->stored.buffers[0];
+    outcome->unkept += is_whole && !record->looked_up;
+}
+
 lobe_result passes_kept_prepare(const filter_context *context, uint32_t index,
                                 const kept_subject *subject, void **slot) {
     lobe_result result = *slot ? LOBE_OK : create(context, slot);
@@ -107,12 +131,15 @@ lobe_result passes_kept_prepare(const filter_context *context, uint32_t index,
     result = look_up(context, index, subject, record);
     if (result == LOBE_OK)
         advance(context, subject, record);
+    if (result == LOBE_OK)
+        count(&context->work->outcome, record);
     return result;
 }
 
 void passes_kept_forget(void *slot) {
     kept_record *record = slot;
     passes_stored_content_free(&record->stored);
+    passes_stored_content_free(&record->joined);
     lobe_release(record->reading);
     lobe_release(record);
 }
@@ -128,6 +155,10 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
 
 const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record) {
     return record && !context->work->is_dry && record->stored.buffers[0] ? &record->stored : NULL;
+}
+
+const stored_content *passes_kept_joined(const filter_context *context, const kept_record *record) {
+    return record && !context->work->is_dry && record->joined.buffers[0] ? &record->joined : NULL;
 }
 
 static void read_back(const filter_context *context, const kept_record *record,
@@ -155,6 +186,14 @@ bool passes_kept_built(const filter_context *context, const kept_record *record,
     return is_whole;
 }
 
+/// They are part of the whole now.
+static void remove_shares(const kept_record *record, const char *folder, const lobe_host *host) {
+    kept_layout layout = record->layout;
+    layout.shares = record->shares;
+    for (layout.share = 1; layout.share <= layout.shares; layout.share++)
+        passes_kept_file_remove(folder, record->key, &layout, host);
+}
+
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host) {
     kept_record *record = slot;
@@ -174,6 +213,9 @@ void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
     }
     if (!folder || !complete)
         return;
-    passes_kept_file_save(folder, record->key, &reading->layout, images, buffers, host);
+    record->saved =
+        passes_kept_file_save(folder, record->key, &reading->layout, images, buffers, host);
     record->settled = true;
+    if (record->saved && record->shares > 0)
+        remove_shares(record, folder, host);
 }

@@ -3,28 +3,17 @@
 
 #include "passes/context/filter.h"
 #include "passes/maps/kept/restoring.h"
+#include "passes/maps/kept/subject.h"
 
 /// What is kept, from frame to frame, of maps of a material that take seconds to make, in a
 /// filter's slot: how much of them is made, and what a cache folder has of them. Texels that
 /// replace others are taken in one frame, and not saved: they may change again in the next.
 
-/// How a material's maps are made with the settings of this frame.
-typedef struct kept_subject {
-    uint64_t kind;   ///< digest of the settings
-    uint64_t inputs; ///< digest of what they are made from, within this process
-    uint32_t parts;  ///< of the work
-    bool has_texels; ///< the host has all that they are made from
-    kept_layout layout;
-    /// A digest of all that they are made from, texels included, for a file's name. Called once,
-    /// where the host has the texels.
-    uint64_t (*key)(const filter_context *context, uint32_t material, const void *user);
-    const void *user;
-} kept_subject;
-
 typedef struct kept_record kept_record;
 
 /// For lobe_filter.prepare of a filter that adapts to texels: looks for the maps in the frame's
 /// cache folder when they are first needed, and takes as much of the frame's work as is left to do.
+/// Where frames make a share of the work, the subject is that of the share.
 lobe_result passes_kept_prepare(const filter_context *context, uint32_t material,
                                 const kept_subject *subject, void **slot);
 /// For lobe_filter.forget.
@@ -39,6 +28,8 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
                            bool *in_parts);
 /// What a folder had of the maps; NULL: nothing, so they are to be made.
 const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record);
+/// What a folder had of all shares, joined; NULL: nothing, so that it is to be made.
+const stored_content *passes_kept_joined(const filter_context *context, const kept_record *record);
 /// Says that all passes are declared that make the maps, so that they may be saved. Returns whether
 /// all of them are made in this frame or before. `images`, `buffers`: as in the layout.
 bool passes_kept_built(const filter_context *context, const kept_record *record,

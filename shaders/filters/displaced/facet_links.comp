@@ -26,12 +26,13 @@ void main() {
     mat3 frame = frame_about(own.normal);
     uint seed = hash(index);
     float turn = hashed_number(seed);
+    uint first = (index - transfer.first_facet) * TRANSFER_LINKS;
     for (uint i = 0u; i < TRANSFER_LINKS; ++i) {
         float square = (float(i) + hashed_number(seed + 1u + i)) / float(TRANSFER_LINKS);
         // Quarters of a turn, in another order than the radii.
         float angle = 2.0 * PI * (turn + 0.25 * float((i * 2u + i / 2u) % 4u));
         vec3 local = vec3(sqrt(square) * vec2(cos(angle), sin(angle)), sqrt(1.0 - square));
         relief_hit hit = trace_relief(own.centre, frame * local);
-        links[index * TRANSFER_LINKS + i] = hit.found ? facet_index(hit.quad, hit.upper) : ~0u;
+        links[first + i] = hit.found ? facet_index(hit.quad, hit.upper) : ~0u;
     }
 }

@@ -32,8 +32,9 @@ float coefficient(uint k, float polynomials[16]) {
 }
 
 void store(uint index, float polynomials[16]) {
+    uint first = (index - transfer.first_facet) * TRANSFER_WORDS(ORDER);
     for (uint i = 0u; i < TRANSFER_WORDS(ORDER); ++i)
-        words[index * TRANSFER_WORDS(ORDER) + i] = packHalf2x16(
+        words[first + i] = packHalf2x16(
             vec2(coefficient(2u * i, polynomials), coefficient(2u * i + 1u, polynomials)));
 }
 

@@ -123,13 +123,15 @@ struct transfer_constants {
     uint first;        // facet_bounces: 1 in the first step
     uint channel;      // of colour, where that varies
     uint first_thread; // of a band of facet_transfer or facet_links
+    uint first_facet;  // of the buffer that these write
 };
-INTERFACE_SIZE(transfer_constants, 24)
+INTERFACE_SIZE(transfer_constants, 28)
 INTERFACE_OFFSET(transfer_constants, height, 4)
 INTERFACE_OFFSET(transfer_constants, azimuths, 8)
 INTERFACE_OFFSET(transfer_constants, first, 12)
 INTERFACE_OFFSET(transfer_constants, channel, 16)
 INTERFACE_OFFSET(transfer_constants, first_thread, 20)
+INTERFACE_OFFSET(transfer_constants, first_facet, 24)
 
 // Push constants of facet_colours.
 struct colour_constants {

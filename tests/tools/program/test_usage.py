@@ -5,8 +5,8 @@ import sys
 import tap
 from program import check, fails, is_wrong_usage, leaves, fresh_folder, lobe, report, succeeds
 
-SUBCOMMANDS = ["render", "view", "bench", "report", "compare", "environment", "scenes", "filters",
-               "info", "manual", "completion"]
+SUBCOMMANDS = ["render", "view", "bench", "report", "compare", "environment", "prepare", "scenes",
+               "filters", "info", "manual", "completion"]
 OUTPUT = ["-o", "never.exr"]
 
 

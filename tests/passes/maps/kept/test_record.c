@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <lobe/file.h>
+#include <lobe/fitting.h>
 #include <lobe/vulkan.h>
 
 #include "tests/engine/support/log_recorder.h"
@@ -600,6 +601,79 @@ static void what_a_relief_is_made_from_has_its_file(void **state) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------
+// Without drawing
+
+/// Part `part` of `parts`, by a new renderer.
+static lobe_result fit(fixture *f, const lobe_scene *scene, drawing *drawing, uint32_t part,
+                       uint32_t parts, lobe_fitting_summary *summary) {
+    start_relief(f, scene, 0, drawing);
+    const lobe_filter *filter = filter_named("displaced");
+    const lobe_settings settings = settings_of(filter, drawing->settings);
+    drawing->stops_at = 2;
+    return lobe_renderer_fit(drawing->renderer,
+                             &(lobe_fitting_parameters){.filter = filter,
+                                                        .settings = &settings,
+                                                        .cache = test_folder.path,
+                                                        .part = part,
+                                                        .part_count = parts,
+                                                        .progress = listen,
+                                                        .user = drawing},
+                             summary);
+}
+
+static void fits(fixture *f, const lobe_scene *scene, uint32_t part, uint32_t parts, uint32_t made,
+                 uint32_t found) {
+    drawing drawing;
+    lobe_fitting_summary summary;
+    assert_int_equal(fit(f, scene, &drawing, part, parts, &summary), LOBE_OK);
+    assert_int_equal(summary.made, made);
+    assert_int_equal(summary.found, found);
+    assert_int_equal(summary.unkept, 0);
+    assert_true(drawing.heard == (made > 0));
+    assert_int_equal(ran(&drawing, "shading"), 0);
+    stop(&drawing);
+}
+
+/// What a new renderer draws with what the folder has.
+static uint64_t restored_picture(fixture *f, const lobe_scene *scene) {
+    drawing drawing;
+    start_relief(f, scene, 0, &drawing);
+    const uint64_t hash = picture(&drawing, test_folder.path);
+    assert_true(restored(&drawing));
+    assert_int_equal(drawing.recorder.notices, 0);
+    stop(&drawing);
+    return hash;
+}
+
+/// However many parts there are, some of them empty; files of parts are there until then.
+static void shares_become_one_map(void **state) {
+    enum { BLOCKS = RELIEF_WIDTH * RELIEF_HEIGHT / 64 };
+    lobe_scene *scene = relief_square(0.8f);
+    drawing drawing;
+    start_relief(*state, scene, 0, &drawing);
+    const uint64_t expected = picture(&drawing, NULL);
+    stop(&drawing);
+    fits(*state, scene, 2, 2, 1, 0);
+    fits(*state, scene, 2, 2, 0, 1);
+    assert_int_equal(kept(), 1);
+    fixture_forget_messages(*state);
+    assert_failure(*state, fit(*state, scene, &drawing, 0, 2, NULL), LOBE_ERROR_NOT_FOUND,
+                   ".relief-1-of-2: part 1 of 2");
+    stop(&drawing);
+    fits(*state, scene, 1, 2, 1, 0);
+    assert_int_equal(kept(), 2);
+    fits(*state, scene, 0, 2, 1, 0);
+    assert_int_equal(kept(), 1);
+    fits(*state, scene, 0, 2, 0, 1);
+    fits(*state, scene, 0, 0, 0, 1);
+    assert_true(restored_picture(*state, scene) == expected);
+    fits(*state, scene, BLOCKS + 1, BLOCKS + 1, 1, 0);
+    fits(*state, scene, 1, BLOCKS + 1, 0, 0);
+    assert_int_equal(kept(), 2);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(one_renderer_saves_and_another_loads),
@@ -616,6 +690,7 @@ int main(void) {
         IN_TEST_FOLDER(nothing_is_saved_where_nothing_is_fitted),
         IN_TEST_FOLDER(reliefs_are_kept_and_made_in_parts),
         IN_TEST_FOLDER(what_a_relief_is_made_from_has_its_file),
+        IN_TEST_FOLDER(shares_become_one_map),
         IN_TEST_FOLDER(models_are_kept_and_made_in_parts),
         IN_TEST_FOLDER(what_models_are_made_from_has_its_file),
     };

@@ -382,6 +382,7 @@ static void filters(void **state) {
     assert_string_equal(lobe_filter_paper(NULL), "");
     assert_false(lobe_filter_supersamples(NULL));
     assert_false(lobe_filter_fits(NULL));
+    assert_false(lobe_filter_shares(NULL));
     assert_false(lobe_filter_draws_waves(NULL));
     assert_int_equal(lobe_filter_knob_count(NULL), 0);
     assert_null(lobe_filter_knob(NULL, 0));
@@ -464,6 +465,23 @@ static void renderers(void **state) {
     REFUSED_SILENTLY(lobe_renderer_update_scene(NULL, NULL));
     lobe_renderer_set_content_giver(NULL, NULL, NULL);
     REFUSED_SILENTLY(lobe_renderer_render(NULL, NULL, &frame));
+    REFUSED_SILENTLY(lobe_renderer_fit(NULL, NULL, NULL));
+    lobe_fitting_parameters fitting = {.filter = lobe_filter_get(0)};
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "fits no maps",
+            lobe_renderer_fit(f->renderer, &fitting, NULL));
+    (void)lobe_filter_find("wu", &f->host, &fitting.filter);
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "no folder",
+            lobe_renderer_fit(f->renderer, &fitting, NULL));
+    fitting.cache = "/nonexistent";
+    fitting.part = fitting.part_count = 1;
+    REFUSED(f, LOBE_ERROR_UNSUPPORTED, "not shared by parts",
+            lobe_renderer_fit(f->renderer, &fitting, NULL));
+    fitting.part = 2;
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "part 2 of 1",
+            lobe_renderer_fit(f->renderer, &fitting, NULL));
+    fitting.part = fitting.part_count = 0;
+    REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "no scene is set",
+            lobe_renderer_fit(f->renderer, &fitting, NULL));
     REFUSED_SILENTLY(lobe_renderer_prepare(NULL, NULL));
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_renderer_prepare",
             lobe_renderer_prepare(f->renderer, NULL));

@@ -1,0 +1,40 @@
+#ifndef PASSES_FILTERS_DISPLACED_FACETS_H
+#define PASSES_FILTERS_DISPLACED_FACETS_H
+
+#include "passes/filters/displaced/transfer_kind.h"
+
+/// What the facets of a relief see, each by itself, see shaders/interface/displacement/relief.h.
+/// That is most of the work, and some of the facets may be left to other processes.
+
+/// Consecutive facets; the first is a multiple of two groups of threads.
+typedef struct facet_range {
+    uint32_t first, count;
+} facet_range;
+
+/// Those of a share, counted from 1 on. The last shares of small reliefs may be empty.
+facet_range passes_facets_share(const device_map *heights, uint32_t share, uint32_t shares);
+
+typedef struct seen_facets {
+    lobe_resource basis; ///< struct transfer_basis_constants
+    lobe_resource words; ///< b of each facet of the range
+    lobe_resource links;
+} seen_facets;
+
+/// Bytes of words, links and basis.
+void passes_facets_bytes(facet_range range, const transfer_kind *kind, uint32_t bytes[3]);
+
+/// Whether buffers can hold all facets of a relief, and the most million texels of which they can.
+bool passes_facets_fit(const device_map *heights, const transfer_kind *kind);
+double passes_facets_limit(const transfer_kind *kind);
+
+/// The parts of the work: bands of facet_transfer, then bands of facet_links.
+uint32_t passes_facets_part_count(facet_range range, const transfer_kind *kind);
+
+/// Adds basis_cells, transfer_basis, facet_transfer and facet_links for a range of a material's
+/// facets. `most`: parts that are added, from the first on. `in_parts`: what they make is kept
+/// between frames, about 40 bytes a facet.
+seen_facets passes_facets(lobe_graph *graph, uint32_t material, const relief *relief,
+                          const transfer_kind *kind, facet_range range, uint32_t most,
+                          bool in_parts);
+
+#endif
