@@ -171,8 +171,13 @@ lobe_resource passes_batch_vertices(const filter_context *context, const instanc
     return passes_device_mesh_import(context->graph, scene, scene->instances[batch->instance].mesh);
 }
 
-void passes_batch_set_indices(const filter_context *context, const instance_batch *batch,
-                              lobe_draw *draw) {
+lobe_resource passes_batch_transforms(const instance_batch *batch, draw_view view) {
+    const lobe_resource seen = batch->seen[view].transforms;
+    return seen.version > 0 ? seen : batch->transforms;
+}
+
+void passes_batch_set_counts(const filter_context *context, const instance_batch *batch,
+                             draw_view view, lobe_draw *draw) {
     const device_scene *scene = context->scene;
     draw->instance_count = batch->count;
     if (batch->displaced.vertices.version > 0) {
@@ -183,6 +188,10 @@ void passes_batch_set_indices(const filter_context *context, const instance_batc
     draw->indices = lobe_graph_import_buffer(
         context->graph, scene->indices[scene->instances[batch->instance].mesh]);
     draw->index_count = passes_batch_index_count(scene, batch);
+    if (batch->seen[view].transforms.version > 0) {
+        draw->indirect = batch->seen[view].arguments;
+        draw->indirect_offset = batch->seen[view].record * sizeof(lobe_draw_arguments);
+    }
 }
 
 lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch) {

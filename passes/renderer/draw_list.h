@@ -7,11 +7,19 @@
 /// The draws of a picture: instances of one mesh and one material are drawn together where they
 /// share filtered maps, so that the host's work grows with the number of draws.
 
-/// Those of a batch that a picture may show (passes/renderer/culling/culling.h).
+/// What sees the instances of a list.
+typedef enum draw_view {
+    DRAW_FOR_PICTURE,
+    DRAW_FOR_LIGHT, ///< the shadow map that is being drawn
+    DRAW_VIEWS,
+} draw_view;
+
+/// Those of a batch that a view may show (passes/renderer/culling/culling.h).
 typedef struct seen_instances {
     lobe_resource transforms; ///< as those of the batch, from its first on; all zero: not culled
-    lobe_resource arguments;  ///< lobe_draw_arguments
-    uint32_t record;          ///< index into them
+    lobe_resource previous_transforms; ///< the same of the previous frame; none without motion
+    lobe_resource arguments;           ///< lobe_draw_arguments of all batches that are culled
+    uint32_t record;                   ///< index into them
 } seen_instances;
 
 /// Instances that are drawn together. They have the same mesh and material, and all mirror or none.
@@ -23,7 +31,7 @@ typedef struct instance_batch {
     displaced_geometry displaced;      ///< what is drawn instead of the mesh; all zero: nothing
     lobe_resource transforms;          ///< buffer of struct instance_constants
     lobe_resource previous_transforms; ///< the same of the previous frame; none without motion
-    seen_instances seen;
+    seen_instances seen[DRAW_VIEWS];
     uint32_t first;        ///< index of the first instance's
     uint32_t start;        ///< the same among the transforms of the whole list
     uint32_t next_of_mesh; ///< 1 + index of another batch of the mesh; 0: none
@@ -33,6 +41,7 @@ typedef struct instance_batch {
 typedef struct draw_list {
     instance_batch *batches;
     uint32_t batch_count;
+    bool draws_all; ///< nothing is culled: for tests
     // Memory that is kept from frame to frame.
     uint32_t *batch_of;                    ///< of each instance that is drawn
     uint32_t *of_mesh;                     ///< as `next_of_mesh`: of each mesh
@@ -63,9 +72,11 @@ void passes_draw_list_upload_previous(draw_list *list, const filter_context *con
 uint32_t passes_batch_index_count(const device_scene *scene, const instance_batch *batch);
 /// The buffer of struct vertex that a batch draws.
 lobe_resource passes_batch_vertices(const filter_context *context, const instance_batch *batch);
-/// Sets the indices of a draw and how many there are.
-void passes_batch_set_indices(const filter_context *context, const instance_batch *batch,
-                              lobe_draw *draw);
+/// The buffer of struct instance_constants, from the batch's first on, that it draws for a view.
+lobe_resource passes_batch_transforms(const instance_batch *batch, draw_view view);
+/// Sets the indices of a draw, how many there are, and how many instances.
+void passes_batch_set_counts(const filter_context *context, const instance_batch *batch,
+                             draw_view view, lobe_draw *draw);
 lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch);
 
 #endif

@@ -70,8 +70,7 @@ static void draw(rendering *r, const frame_delivery *delivery, const shading_tar
     add_passes_before(graph, &r->parameters->host, targets);
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     light.shadows = passes_shadow_maps(&r->context, &r->renderer->draws, NULL);
-    if (!r->renderer->draws_all)
-        passes_culling(&r->context, &r->renderer->draws);
+    passes_culling(&r->context, &r->renderer->draws);
     if (passes_samples_several(&r->context))
         passes_samples(&r->context, &r->renderer->draws, &light, targets);
     else

@@ -36,8 +36,7 @@ static lobe_resource declare_samples(rendering *r, const sample_sum *sum, uint32
     targets.without_background = sum->without_background;
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     lobe_resource resource = declare_sum(r);
-    if (!r->renderer->draws_all)
-        passes_culling(&r->context, &r->renderer->draws);
+    passes_culling(&r->context, &r->renderer->draws);
     for (uint32_t i = 0; i < count; i++) {
         shading_sample sample = {.footprint = 1, .number = first + i, .pattern = sum->pattern};
         passes_sample_position(sample.number, sum->samples, sample.position);

@@ -20,7 +20,6 @@ struct lobe_renderer {
     device_scene *scene;              ///< NULL: none is set
     filtered_appearance *appearances; ///< one per instance of the scene
     draw_list draws;
-    bool draws_all;         ///< nothing is culled: for tests
     uint32_t *first_marks;  ///< one per material, then one per image: see passes/maps/seen_tiles.h
     uint32_t marked_frames; ///< in which tiles were marked
     lobe_resource *filtered_images;     ///< one per image of the scene, then one per material

@@ -189,9 +189,14 @@ const instance_batch *passes_shading_draw_batch(const draw_list *draws, size_t d
 shading_draw_count passes_shading_draw_counts(const filter_context *context, const draw_list *draws,
                                               size_t draw) {
     if (draw < FIRST_INSTANCE_DRAW)
-        return (shading_draw_count){3, 1};
+        return (shading_draw_count){.indices = 3, .instances = 1};
     const instance_batch *batch = &draws->batches[draw - FIRST_INSTANCE_DRAW];
-    return (shading_draw_count){passes_batch_index_count(context->scene, batch), batch->count};
+    const seen_instances *seen = &batch->seen[DRAW_FOR_PICTURE];
+    return (shading_draw_count){
+        .indices = passes_batch_index_count(context->scene, batch),
+        .instances = batch->count,
+        .seen = seen->transforms.version > 0 ? 1 + seen->record : 0,
+    };
 }
 
 /// Of the height map, if slopes follow how it is stretched; 0: they do not.
@@ -222,17 +227,11 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
                                        batch->appearance, list);
 }
 
-/// Draws of a selection have arguments of their own.
-static bool draws_seen(const drawing *d, const instance_batch *batch) {
-    return !d->selection && batch->seen.transforms.version > 0;
-}
-
 static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_binding *bindings) {
     const device_scene *scene = d->context->scene;
     const device_instance *drawn = &scene->instances[batch->instance];
     bindings[0] = (lobe_binding){.name = "instance_block",
-                                 .resource = draws_seen(d, batch) ? batch->seen.transforms
-                                                                  : batch->transforms};
+                                 .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)};
     bindings[1] = (lobe_binding){.name = "vertex_block",
                                  .resource = passes_batch_vertices(d->context, batch)};
     return 2 + passes_material_shading_bind(d->context, d->light,
@@ -266,11 +265,7 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
         .bindings = bindings,
         .binding_count = binding_count,
     };
-    passes_batch_set_indices(context, batch, &draw);
-    if (draws_seen(d, batch)) {
-        draw.indirect = batch->seen.arguments;
-        draw.indirect_offset = batch->seen.record * sizeof(lobe_draw_arguments);
-    }
+    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
     select_draw(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
     lobe_pass_draw(d->pass, &draw);
 }

@@ -61,6 +61,7 @@ void passes_shading(const filter_context *context, const draw_list *draws,
 typedef struct shading_draw_count {
     uint32_t indices; ///< or vertices
     uint32_t instances;
+    uint32_t seen; ///< 1 + the batch's record among what the picture may show; 0: all instances
 } shading_draw_count;
 
 /// The number of draws of a shading pass with a selection, and what each draws.

@@ -4,6 +4,7 @@
 #include "passes/filters/material_shading.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/tile_knobs.h"
+#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/shading.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
@@ -82,6 +83,7 @@ static void list_draws(rendering *r) {
                 passes_draw_list_add(draws, scene, next - 1, NULL, true);
     }
     passes_draw_list_end(draws, &r->context);
+    passes_culling(&r->context, draws);
 }
 
 static lobe_resource upload_maps(const rendering *r, uint32_t index) {
@@ -114,7 +116,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     lobe_graph *graph = context->graph;
     const struct draw_constants constants = {.first_instance = batch->first};
     lobe_binding bindings[4 + MAP_SHADING] = {
-        {.name = "instance_block", .resource = batch->transforms},
+        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
          .resource = lobe_graph_import_buffer(graph, material->constants)},
@@ -139,7 +141,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         .bindings = bindings,
         .binding_count = 4 + MAP_SHADING,
     };
-    passes_batch_set_indices(context, batch, &draw);
+    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
     lobe_pass_draw(pass, &draw);
 }
 

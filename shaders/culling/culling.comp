@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Instances of a batch that may be seen: their transforms, in the order that they had, and the
-// arguments of the draw. An instance is left out where its bounds lie behind a plane. One workgroup
-// takes a batch, and finds places by prefix sums, so that the order never depends on the device.
+// Instances of a batch that may be seen: their transforms, or those that they had in the previous
+// frame, in the order that they had, and the arguments of the draw. An instance is left out where
+// its bounds lie behind a plane. One workgroup takes a batch, and finds places by prefix sums, so
+// that the order never depends on the device.
 
 #include "interface/instance.h"
 
@@ -18,10 +19,13 @@ layout(set = 0, binding = 0, std430) readonly buffer batch_block {
 layout(set = 0, binding = 1, std430) readonly buffer transform_block {
     instance_constants transforms[];
 };
-layout(set = 0, binding = 2, std430) writeonly buffer seen_block {
+layout(set = 0, binding = 2, std430) readonly buffer copied_block {
+    instance_constants copied[]; // of the same instances
+};
+layout(set = 0, binding = 3, std430) writeonly buffer seen_block {
     instance_constants seen[];
 };
-layout(set = 0, binding = 3, std430) writeonly buffer argument_block {
+layout(set = 0, binding = 4, std430) writeonly buffer argument_block {
     uint arguments[];
 };
 
@@ -70,19 +74,20 @@ void main() {
     culled_batch batch = batches[number];
     for (uint start = 0u; start < batch.count; start += CULLING_THREADS) {
         bool inside = start + local < batch.count;
-        instance_constants instance =
-            transforms[batch.first + min(start + local, batch.count - 1u)];
-        bool keeps = inside && may_be_seen(instance, batch.minimum.xyz, batch.maximum.xyz);
+        uint index = batch.first + min(start + local, batch.count - 1u);
+        bool keeps = inside &&
+                     may_be_seen(transforms[index], batch.minimum.xyz, batch.maximum.xyz);
         uint all;
         uint place = count_kept(keeps, all);
         if (keeps)
-            seen[batch.first + count + place - 1u] = instance;
+            seen[batch.first + count + place - 1u] = copied[index];
         count += all;
     }
     if (local > 0u)
         return;
-    arguments[5u * number] = batch.index_count;
-    arguments[5u * number + 1u] = count;
+    uint record = view.first_record + number;
+    arguments[5u * record] = batch.index_count;
+    arguments[5u * record + 1u] = count;
     for (uint i = 2u; i < 5u; ++i)
-        arguments[5u * number + i] = 0u;
+        arguments[5u * record + i] = 0u;
 }

@@ -19,9 +19,14 @@ INTERFACE_OFFSET(draw_constants, map_width, 4)
 
 // Push constants of culling: what lies behind one of four planes is not seen.
 struct culling_constants {
-    float4 planes[4]; // normals inwards, of any length, and offsets, in the world
+    float4 planes[4];  // normals inwards, of any length, and offsets, in the world
+    uint first_record; // of the arguments of draws
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
-INTERFACE_SIZE(culling_constants, 64)
+INTERFACE_SIZE(culling_constants, 80)
+INTERFACE_OFFSET(culling_constants, first_record, 64)
 
 // Instances that are drawn together, for culling.
 struct culled_batch {

@@ -235,6 +235,7 @@ static known_member known[] = {
     MEMBER(deform_constants, row, 4),
     MEMBER(instance_constants, rows, 0),
     MEMBER(culling_constants, planes, 0),
+    MEMBER(culling_constants, first_record, 1),
     MEMBER(culled_batch, minimum, 0),
     MEMBER(culled_batch, maximum, 1),
     MEMBER(culled_batch, first, 2),

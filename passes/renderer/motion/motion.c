@@ -5,6 +5,7 @@
 
 #include "passes/context/camera.h"
 #include "passes/displacement/drawn_bounds.h"
+#include "passes/renderer/culling/culling.h"
 #include "passes/upload/device_mesh.h"
 #include "passes/upload/number_check.h"
 #include "shaders/interface/motion.h"
@@ -92,6 +93,11 @@ static lobe_resource import_previous_vertices(const filter_context *context,
                                               scene->instances[batch->instance].mesh);
 }
 
+static lobe_resource previous_transforms(const instance_batch *batch) {
+    const seen_instances *seen = &batch->seen[DRAW_FOR_PICTURE];
+    return seen->transforms.version > 0 ? seen->previous_transforms : batch->previous_transforms;
+}
+
 /// Only where this surface is the one that is seen: masks have cut their holes into the depth.
 static void draw_batch(const filter_context *context, lobe_pass *pass,
                        const instance_batch *batch) {
@@ -100,8 +106,8 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
     const lobe_binding bindings[] = {
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "previous_vertex_block", .resource = import_previous_vertices(context, batch)},
-        {.name = "instance_block", .resource = batch->transforms},
-        {.name = "previous_instance_block", .resource = batch->previous_transforms},
+        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
+        {.name = "previous_instance_block", .resource = previous_transforms(batch)},
     };
     lobe_draw draw = {
         .vertex_shader = "shading/motion/motion.vert",
@@ -114,12 +120,14 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
         .bindings = bindings,
         .binding_count = sizeof bindings / sizeof *bindings,
     };
-    passes_batch_set_indices(context, batch, &draw);
+    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
     lobe_pass_draw(pass, &draw);
 }
 
 void passes_motion(const filter_context *context, draw_list *draws, const motion_start *start,
                    shading_targets *targets) {
+    passes_draw_list_upload_previous(draws, context, start->transforms);
+    passes_culling_of_previous(context, draws);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "motion");
     const bool keep = targets->keep_motion;
     targets->motion =
@@ -133,7 +141,6 @@ void passes_motion(const filter_context *context, draw_list *draws, const motion
                                              .resource = upload_constants(context, start)});
     if (!keep)
         draw_background(context, pass);
-    passes_draw_list_upload_previous(draws, context, start->transforms);
     for (size_t i = 0; i < draws->batch_count; i++)
         draw_batch(context, pass, &draws->batches[i]);
 }

@@ -81,15 +81,26 @@ static lobe_resource upload_counts(const filter_context *context, const draw_lis
     return resource;
 }
 
+/// The arguments of batches of which the device knows how many instances are seen; `none` if there
+/// are no such batches.
+static lobe_resource seen_arguments(const draw_list *list, lobe_resource none) {
+    for (uint32_t i = 0; i < list->batch_count; i++)
+        if (list->batches[i].seen[DRAW_FOR_PICTURE].transforms.version > 0)
+            return list->batches[i].seen[DRAW_FOR_PICTURE].arguments;
+    return none;
+}
+
 static void write_arguments(const filter_context *context, const draw_list *list,
                             sample_choice *choice) {
     const uint32_t draws = (uint32_t)passes_shading_draw_count(list);
+    const lobe_resource counts = upload_counts(context, list);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "sample_arguments");
     choice->arguments =
         declare_buffer(context, "sample arguments", (1 + draws) * sizeof(lobe_draw_arguments));
     lobe_pass_read(pass, &(lobe_binding){.name = "list_block", .resource = choice->list});
-    lobe_pass_read(
-        pass, &(lobe_binding){.name = "count_block", .resource = upload_counts(context, list)});
+    lobe_pass_read(pass, &(lobe_binding){.name = "count_block", .resource = counts});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "seen_block", .resource = seen_arguments(list, counts)});
     choice->arguments = lobe_pass_write(
         pass, &(lobe_binding){.name = "argument_block", .resource = choice->arguments});
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/samples/sample_arguments.comp",

@@ -8,6 +8,7 @@
 #include "passes/context/shared_knobs.h"
 #include "passes/displacement/drawn_bounds.h"
 #include "passes/filters/material_shading.h"
+#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/shadows/shadow_views.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/instance.h"
@@ -56,7 +57,7 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
     const bool masked = material->material->alpha_mask;
     const struct draw_constants constants = {.first_instance = batch->first};
     lobe_binding bindings[3 + MAP_SHADING] = {
-        {.name = "instance_block", .resource = batch->transforms},
+        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_LIGHT)},
         {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
     };
     size_t binding_count = 2;
@@ -85,14 +86,14 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
         .bindings = bindings,
         .binding_count = binding_count,
     };
-    passes_batch_set_indices(context, batch, &draw);
+    passes_batch_set_counts(context, batch, DRAW_FOR_LIGHT, &draw);
     lobe_pass_draw(pass, &draw);
 }
 
 /// What the passes of all layers share.
 typedef struct shadow_drawing {
     const filter_context *context;
-    const draw_list *draws;
+    draw_list *draws;
     shadow_receivers receivers;
     uint32_t extent;
     float place[2]; ///< of samples in texels
@@ -111,6 +112,7 @@ static void fill_view(const shadow_drawing *d, const shadow_camera *view,
 /// Each layer has its own constants, so that lights that have not changed keep theirs.
 static void draw_layer(shadow_drawing *d, uint32_t layer) {
     lobe_graph *graph = d->context->graph;
+    passes_culling_for_light(d->context, d->draws, d->views[layer].world_to_clip, d->extent);
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "shadow_map");
     d->maps = lobe_pass_depth(pass, &(lobe_attachment){.resource = d->maps, .layer = layer});
     d->slopes =
@@ -194,7 +196,7 @@ static lobe_resource layered_image(const shadow_drawing *d, const char *name, lo
                                                                          .retained = retained});
 }
 
-shadow_maps passes_shadow_maps(const filter_context *context, const draw_list *draws,
+shadow_maps passes_shadow_maps(const filter_context *context, draw_list *draws,
                                const shading_sample *sample) {
     const uint32_t layers = whole_plan(context).layers;
     if (layers == 0)

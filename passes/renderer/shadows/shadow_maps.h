@@ -33,7 +33,7 @@ typedef struct shadow_maps {
 /// Adds the passes that draw them (`shadow_map`), one for each layer, from what `draws` draws. They
 /// are kept while nothing moves; those of a sample of the reference (`sample`; NULL: none) are not,
 /// as each has its texels at other places. Without shadows: what shading binds instead.
-shadow_maps passes_shadow_maps(const filter_context *context, const draw_list *draws,
+shadow_maps passes_shadow_maps(const filter_context *context, draw_list *draws,
                                const shading_sample *sample);
 
 #endif

@@ -62,6 +62,9 @@ static lobe_scene *crowd(void) {
                              LOBE_OK);
     }
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+    const lobe_light lamp = {
+        .type = LOBE_LIGHT_POINT, .position = {0.5f, 0.5f, -2}, .intensity = {4, 4, 4}};
+    assert_int_equal(scenes_add_lights(scene, &lamp, 1, NULL), LOBE_OK);
     scene_end(scene);
     scene->camera = (lobe_camera){
         .target = {0, 0, -1}, .up = {0, 1, 0}, .vertical_field_of_view = 0.8f, .near_plane = 0.01f};
@@ -160,7 +163,7 @@ static void instances_that_may_be_seen_keep_their_order(void **state) {
                                  matrix);
         list_draws(&run, &list, maps, true);
         passes_culling(&run.context, &list);
-        const seen_instances *all = &list.batches[0].seen;
+        const seen_instances *all = &list.batches[0].seen[DRAW_FOR_PICTURE];
         assert_true(all->transforms.version > 0);
         lobe_graph_read_back(run.context.graph, all->transforms, (lobe_range){0});
         lobe_graph_read_back(run.context.graph, all->arguments, (lobe_range){0});
@@ -173,7 +176,7 @@ static void instances_that_may_be_seen_keep_their_order(void **state) {
             const uint32_t mesh = run.scene->instances[list.batches[i].instance].mesh;
             assert_int_equal(arguments[i].index_count, scene->meshes[mesh].index_count);
             kept += check_batch(&list, &list.batches[i], &scene->meshes[mesh], matrix, seen,
-                                &arguments[list.batches[i].seen.record]);
+                                &arguments[list.batches[i].seen[DRAW_FOR_PICTURE].record]);
         }
         print_message("# camera %d: %u of %d instances\n", number, kept, INSTANCES);
         assert_true(kept < 0.8 * INSTANCES);
@@ -186,8 +189,9 @@ static void instances_that_may_be_seen_keep_their_order(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Pictures
 
+/// `previous`: transforms, for motion; NULL: no motion.
 static lobe_frame picture(fixture *f, const lobe_camera *camera, const picture_request *request,
-                          bool motion) {
+                          const float (*previous)[16]) {
     const lobe_filter *filter = filter_named(request->filter);
     const lobe_settings settings = settings_of(filter, request->settings);
     lobe_frame frame;
@@ -198,11 +202,51 @@ static lobe_frame picture(fixture *f, const lobe_camera *camera, const picture_r
                                                .settings = &settings,
                                                .reference.samples = 2,
                                                .aov = request->outputs,
-                                               .motion.deliver = motion};
+                                               .motion = {.deliver = previous != NULL,
+                                                          .previous_camera = camera,
+                                                          .previous_transforms = previous}};
     if (lobe_renderer_render(f->renderer, &parameters, &frame) != LOBE_OK)
         fail_msg("%s", f->error);
     assert_silence(f, "crowd", request);
     return frame;
+}
+
+static void check_equal(const lobe_image *culled, const lobe_image *all, const char *what,
+                        size_t number, int camera) {
+    if (image_hash(culled) != image_hash(all))
+        fail_msg("case %zu, camera %d: largest difference of %s %g", number, camera, what,
+                 largest_difference(culled, all));
+}
+
+/// A part of the crowd, of all meshes and materials.
+static lobe_scene *small_crowd(void) {
+    lobe_scene *scene = crowd();
+    for (size_t i = 0; i < scene->instance_count; i++)
+        scene->instances[i].hidden = i % 5 > 0;
+    return scene;
+}
+
+/// Where the instances were: each at another place.
+static void shift_all(const lobe_scene *scene, float (*transforms)[16]) {
+    for (size_t i = 0; i < scene->instance_count; i++) {
+        memcpy(transforms[i], scene->instances[i].transform, sizeof *transforms);
+        transforms[i][12] += 0.001f * (float)(i % 37);
+    }
+}
+
+/// The vertices of the first mesh are on the device.
+static void give_vertices(void *user, lobe_graph *graph, const lobe_given_content *content) {
+    content->vertices[0] = lobe_graph_import_buffer(graph, user);
+}
+
+static lobe_buffer *move_to_device(fixture *f, lobe_mesh *mesh) {
+    lobe_buffer *buffer;
+    const lobe_buffer_parameters parameters = {.size = mesh->vertex_count * sizeof *mesh->vertices,
+                                               .data = mesh->vertices};
+    assert_int_equal(lobe_buffer_create(f->device, &parameters, &buffer), LOBE_OK);
+    mesh->on_device = true;
+    lobe_renderer_set_content_giver(f->renderer, give_vertices, buffer);
+    return buffer;
 }
 
 static void pictures_are_those_of_all_instances(void **state) {
@@ -213,34 +257,61 @@ static void pictures_are_those_of_all_instances(void **state) {
     } cases[] = {
         {{.filter = "toksvig", .settings = {NULL}, .outputs = true}, CAMERAS, false},
         {{.filter = "toksvig", .settings = {"samples=4", NULL}}, 1, false},
-        {{.filter = "reference", .settings = {NULL}}, 1, false},
+        {{.filter = "reference", .settings = {"shadows=512", NULL}}, 1, false},
         {{.filter = "direct", .settings = {"shadows=512", NULL}}, 2, true},
+        {{.filter = "lean", .settings = {"samples=1", "built=seen", NULL}}, 1, false},
     };
     fixture *f = *state;
-    lobe_scene *scene = crowd();
+    lobe_scene *scene = small_crowd();
+    static float previous[INSTANCES][16];
+    shift_all(scene, previous);
+    lobe_buffer *vertices = move_to_device(f, &scene->meshes[0]);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    const lobe_graph *graph = lobe_renderer_graph(f->renderer);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         for (int number = 0; number < cases[i].cameras; number++) {
             const lobe_camera camera = camera_of(scene, number);
             lobe_frame frames[2];
             for (int all = 0; all < 2; all++) {
-                f->renderer->draws_all = all;
-                frames[all] = picture(f, &camera, &cases[i].request, cases[i].motion);
-                assert_int_equal(
-                    count_passes(lobe_renderer_graph(f->renderer), "culling", LOBE_PASS_RUN), !all);
+                f->renderer->draws.draws_all = all;
+                frames[all] =
+                    picture(f, &camera, &cases[i].request, cases[i].motion ? previous : NULL);
+                assert_int_equal(count_passes(graph, "culling", LOBE_PASS_RUN) > 0, !all);
             }
             assert_true(number == 4 || largest_value(&frames[1].radiance) > 0.01);
-            if (image_hash(&frames[0].radiance) != image_hash(&frames[1].radiance))
-                fail_msg("case %zu, camera %d: largest difference %g", i, number,
-                         largest_difference(&frames[0].radiance, &frames[1].radiance));
+            check_equal(&frames[0].radiance, &frames[1].radiance, "radiance", i, number);
             if (cases[i].request.outputs)
-                assert_true(image_hash(&frames[0].normal_depth) ==
-                            image_hash(&frames[1].normal_depth));
+                check_equal(&frames[0].normal_depth, &frames[1].normal_depth, "normals", i, number);
+            if (cases[i].motion) {
+                assert_true(largest_value(&frames[1].motion) > 0.1);
+                check_equal(&frames[0].motion, &frames[1].motion, "motion", i, number);
+            }
             lobe_frame_free(&frames[0]);
             lobe_frame_free(&frames[1]);
         }
     }
-    f->renderer->draws_all = false;
+    f->renderer->draws.draws_all = false;
+    lobe_renderer_set_content_giver(f->renderer, NULL, NULL);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_buffer_destroy(&vertices);
+    lobe_scene_destroy(&scene);
+}
+
+/// Of seven maps, only the sun's follows the camera.
+static void shadow_maps_are_kept(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = small_crowd();
+    const picture_request request = {.filter = "direct", .settings = {"shadows=512", NULL}};
+    const lobe_camera cameras[] = {camera_of(scene, 0), camera_of(scene, 0), camera_of(scene, 2)};
+    static const int drawn[] = {7, 0, 1};
+    const lobe_graph *graph = lobe_renderer_graph(f->renderer);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (int i = 0; i < 3; i++) {
+        lobe_frame frame = picture(f, &cameras[i], &request, NULL);
+        assert_int_equal(count_passes(graph, "shadow_map", LOBE_PASS_RUN), drawn[i]);
+        assert_int_equal(count_passes(graph, "culling", LOBE_PASS_RUN), 1 + drawn[i]);
+        lobe_frame_free(&frame);
+    }
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
 }
@@ -253,7 +324,7 @@ static void small_scenes_take_no_pass(void **state) {
     for (size_t i = 10; i < scene->instance_count; i++)
         scene->instances[i].hidden = true;
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    lobe_frame frame = picture(f, NULL, &request, false);
+    lobe_frame frame = picture(f, NULL, &request, NULL);
     assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), "culling", LOBE_PASS_RUN), 0);
     lobe_frame_free(&frame);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
@@ -264,6 +335,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instances_that_may_be_seen_keep_their_order),
         cmocka_unit_test(pictures_are_those_of_all_instances),
+        cmocka_unit_test(shadow_maps_are_kept),
         cmocka_unit_test(small_scenes_take_no_pass),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
