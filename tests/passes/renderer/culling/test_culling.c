@@ -304,8 +304,8 @@ static void shadow_maps_are_kept(void **state) {
     const picture_request request = {.filter = "direct", .settings = {"shadows=512", NULL}};
     const lobe_camera cameras[] = {camera_of(scene, 0), camera_of(scene, 0), camera_of(scene, 2)};
     static const int drawn[] = {7, 0, 1};
-    const lobe_graph *graph = lobe_renderer_graph(f->renderer);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    const lobe_graph *graph = lobe_renderer_graph(f->renderer);
     for (int i = 0; i < 3; i++) {
         lobe_frame frame = picture(f, &cameras[i], &request, NULL);
         assert_int_equal(count_passes(graph, "shadow_map", LOBE_PASS_RUN), drawn[i]);
