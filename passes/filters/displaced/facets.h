@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_DISPLACED_FACETS_H
 #define PASSES_FILTERS_DISPLACED_FACETS_H
 
-#include "passes/filters/displaced/transfer_kind.h"
+#include "passes/filters/displaced/window.h"
 
 /// What the facets of a relief see, each by itself, see shaders/interface/displacement/relief.h.
 /// That is most of the work, and some of the facets may be left to other processes.
@@ -23,18 +23,27 @@ typedef struct seen_facets {
 /// Bytes of words, links and basis.
 void passes_facets_bytes(facet_range range, const transfer_kind *kind, uint32_t bytes[3]);
 
-/// Whether buffers can hold all facets of a relief, and the most million texels of which they can.
-bool passes_facets_fit(const device_map *heights, const transfer_kind *kind);
-double passes_facets_limit(const transfer_kind *kind);
-
 /// The parts of the work: bands of facet_transfer, then bands of facet_links.
 uint32_t passes_facets_part_count(facet_range range, const transfer_kind *kind);
 
-/// Adds basis_cells, transfer_basis, facet_transfer and facet_links for a range of a material's
-/// facets. `most`: parts that are added, from the first on. `in_parts`: what they make is kept
-/// between frames, about 40 bytes a facet.
-seen_facets passes_facets(lobe_graph *graph, uint32_t material, const relief *relief,
-                          const transfer_kind *kind, facet_range range, uint32_t most,
-                          bool in_parts);
+/// What is to be seen.
+typedef struct facets_request {
+    lobe_graph *graph;
+    uint32_t material;
+    const relief *relief;
+    const transfer_kind *kind;
+    /// What the passes make is kept between frames, about 40 bytes a facet. It also is where
+    /// colours vary, of the last window.
+    bool in_parts;
+} facets_request;
+
+/// Declares the buffers for up to so many facets, and adds basis_cells and transfer_basis.
+seen_facets passes_facets_begin(const facets_request *request, uint32_t facets);
+
+/// Adds facet_transfer and facet_links for a range of a window's facets, in place of what the
+/// buffers had. `most`: parts that are added, from the first on. `keeps`: the last one is made,
+/// although nothing reads it in this frame. Returns the number of parts.
+uint32_t passes_facets_add(const facets_request *request, const facet_window *window,
+                           facet_range range, uint32_t most, bool keeps, seen_facets *seen);
 
 #endif

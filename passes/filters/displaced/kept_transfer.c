@@ -111,7 +111,7 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
     const device_material *material = &context->scene->materials[index];
     const fit_work *work = context->work;
     if (!work || work->is_dry || !passes_has_relief(material) ||
-        !passes_facets_fit(&material->maps[MAP_HEIGHT], kind))
+        (work->shares > 0 && !passes_transfer_is_whole(material, kind)))
         return LOBE_OK;
     const kept_subject subject = {
         .kind = passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares),
@@ -128,6 +128,19 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
                                            : LOBE_OK;
 }
 
+static bool can_share(const filter_context *context, uint32_t index, const transfer_kind *kind) {
+    const device_material *material = &context->scene->materials[index];
+    if (passes_transfer_is_whole(material, kind))
+        return true;
+    const device_map *map = &material->maps[MAP_HEIGHT];
+    lobe_graph_fail(context->graph, LOBE_ERROR_LIMIT,
+                    "%s: a height map of %u x %u texels is too large to be shared by several "
+                    "processes: it has more than %.1f million",
+                    material->material->name, map->width, map->height,
+                    (double)passes_window_limit() / 2e6);
+    return false;
+}
+
 /// What the facets of the frame's share see is all that is made.
 static void build_share(const filter_context *context, uint32_t index, const transfer_kind *kind,
                         const void *prepared) {
@@ -136,8 +149,12 @@ static void build_share(const filter_context *context, uint32_t index, const tra
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
     const relief relief = passes_relief(context, index, in_parts);
-    const seen_facets seen = passes_facets(context->graph, index, &relief, kind,
-                                           range_of_share(context, index), parts, in_parts);
+    const facet_range range = range_of_share(context, index);
+    const facets_request request = {context->graph, index, &relief, kind, in_parts};
+    const facet_window window = {.width = relief.constants.width,
+                                 .height = relief.constants.height};
+    seen_facets seen = passes_facets_begin(&request, range.count);
+    passes_facets_add(&request, &window, range, parts, in_parts, &seen);
     const lobe_resource buffers[] = {seen.words, seen.links, seen.basis};
     (void)passes_kept_built(context, prepared, NULL, buffers);
 }
@@ -158,6 +175,8 @@ static transfer_map make(const filter_context *context, uint32_t index, const tr
 bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
                                 const transfer_kind *kind, const void *prepared, bool near,
                                 transfer_map *transfer, relief *relief) {
+    if (context->work && context->work->shares > 0 && !can_share(context, index, kind))
+        return false;
     if (makes_share(context)) {
         build_share(context, index, kind, prepared);
         return false;

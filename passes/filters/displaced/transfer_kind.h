@@ -9,11 +9,12 @@ typedef struct transfer_kind {
     uint32_t azimuths; ///< of a facet's horizon [4, 64]
     uint32_t bounces;  ///< between facets, at least 1
     lobe_format format;
-    bool normals;  ///< facets' normals are read, for what they mirror
-    bool coloured; ///< the diffuse colour varies over the relief
+    bool normals;         ///< facets' normals are read, for what they mirror
+    bool coloured;        ///< the diffuse colour varies over the relief
+    uint64_t most_facets; ///< that buffers hold at a time; 0: as many as they can
 } transfer_kind;
 
-/// The push constants of the passes that find it.
+/// The push constants of the passes that find it, for a window that is all of the relief.
 struct transfer_constants passes_transfer_constants(const relief *relief,
                                                     const transfer_kind *kind);
 

@@ -7,22 +7,29 @@
 #include "passes/filters/displaced/relief.h"
 #include "passes/maps/lobe_map.h"
 
-/// What passes between the relief and the map share.
+/// What passes between the relief and the map share, of one window at a time.
 typedef struct transfer_build {
     lobe_graph *graph;
     const transfer_kind *kind;
     uint32_t material;
     relief relief;
-    uint32_t facets;
-    seen_facets seen;
+    seen_facets seen; ///< of the window
+    facet_window window;
     lobe_resource colours;       ///< if they vary, otherwise anything
     lobe_resource first, others; ///< light from other facets: that has met one; all
 } transfer_build;
 
 static lobe_resource declare_facets(const transfer_build *build, const char *name, size_t bytes) {
     return lobe_graph_buffer(
-        build->graph,
-        &(lobe_buffer_description){.name = name, .size = (size_t)build->facets * bytes});
+        build->graph, &(lobe_buffer_description){
+                          .name = name, .size = passes_window_facets(&build->window) * bytes});
+}
+
+static struct transfer_constants constants_of(const transfer_build *build, uint32_t channel) {
+    struct transfer_constants constants = passes_transfer_constants(&build->relief, build->kind);
+    passes_window_constants(&build->window, &constants);
+    constants.channel = channel;
+    return constants;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -75,13 +82,17 @@ static void add_colours(const filter_context *context, transfer_build *build) {
                                                    TRANSFER_COLOUR_WORDS * sizeof(uint32_t))});
     specialisation_list list = {.graph = build->graph};
     passes_material_specialise(material, &list);
-    struct colour_constants constants = {.width = build->relief.constants.width,
-                                         .height = build->relief.constants.height,
+    struct colour_constants constants = {.width = build->window.width,
+                                         .height = build->window.height,
                                          .points = colour_points(material),
-                                         .metallic = material->values.metallic};
+                                         .metallic = material->values.metallic,
+                                         .origin_x = build->window.x,
+                                         .origin_y = build->window.y,
+                                         .relief_width = build->relief.constants.width,
+                                         .relief_height = build->relief.constants.height};
     memcpy(constants.base_colour, material->values.base_colour, sizeof constants.base_colour);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/facet_colours.comp",
-                                              .threads = {build->facets},
+                                              .threads = {passes_window_facets(&build->window)},
                                               .constants = &constants,
                                               .constants_size = sizeof constants,
                                               .specialisation = list.items,
@@ -103,12 +114,11 @@ static lobe_resource add_bounce(const transfer_build *build, uint32_t channel, b
         pass, &(lobe_binding){.name = "target_block",
                               .resource = declare_facets(build, "light between facets",
                                                          TRANSFER_INDIRECT * sizeof(float))});
-    struct transfer_constants constants = passes_transfer_constants(&build->relief, build->kind);
+    struct transfer_constants constants = constants_of(build, channel);
     constants.first = is_first;
-    constants.channel = channel;
     const kind_specialisation kind = passes_transfer_specialisation(build->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/facet_bounces.comp",
-                                              .threads = {build->facets},
+                                              .threads = {passes_window_facets(&build->window)},
                                               .constants = &constants,
                                               .constants_size = sizeof constants,
                                               .specialisation = kind.items,
@@ -127,34 +137,36 @@ static uint32_t layer_count(const transfer_kind *kind) {
            (kind->coloured ? 2 * TRANSFER_FURTHER_LAYERS(kind->order) : 0);
 }
 
-/// Writes the layers of one channel.
+/// Writes a window's part of the layers of one channel.
 static void write_cells(reduced_map *map, lobe_pass *pass, const transfer_kind *kind,
-                        uint32_t channel) {
+                        uint32_t channel, bool is_first) {
     const uint32_t first = TRANSFER_FIRST_LAYERS(kind->order),
                    further = TRANSFER_FURTHER_LAYERS(kind->order);
     const lobe_binding target = {"transfer_map", map->resource,
                                  .range = {0, 1, channel == 0 ? 0 : first + (channel - 1) * further,
                                            channel == 0 ? first : further}};
-    map->resource = lobe_pass_write(pass, &target);
+    map->resource = is_first ? lobe_pass_write(pass, &target) : lobe_pass_modify(pass, &target);
 }
 
-static void add_cells(const transfer_build *build, uint32_t channel, reduced_map *map) {
+static lobe_pass *add_cells(const transfer_build *build, uint32_t channel, bool is_first,
+                            reduced_map *map) {
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "cell_transfer");
     passes_relief_read(&build->relief, pass);
     lobe_pass_read(pass, &(lobe_binding){.name = "transfer_words", .resource = build->seen.words});
     lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = build->others});
     lobe_pass_read(pass, &(lobe_binding){.name = "first_block", .resource = build->first});
     lobe_pass_read(pass, &(lobe_binding){.name = "colour_words", .resource = build->colours});
-    write_cells(map, pass, build->kind, channel);
-    struct transfer_constants constants = passes_transfer_constants(&build->relief, build->kind);
-    constants.channel = channel;
+    write_cells(map, pass, build->kind, channel, is_first);
+    const struct transfer_constants constants = constants_of(build, channel);
     const kind_specialisation kind = passes_transfer_specialisation(build->kind);
-    lobe_dispatch dispatch = {.shader = "filters/displaced/cell_transfer.comp",
-                              .constants = &constants,
-                              .constants_size = sizeof constants,
-                              .specialisation = kind.items,
-                              .specialisation_count = 2};
-    passes_reduced_map_dispatch(map, pass, 0, 1, &dispatch);
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "filters/displaced/cell_transfer.comp",
+                                        .threads = {build->window.columns, build->window.rows, 1},
+                                        .constants = &constants,
+                                        .constants_size = sizeof constants,
+                                        .specialisation = kind.items,
+                                        .specialisation_count = 2});
+    return pass;
 }
 
 static void add_normals(const transfer_build *build, reduced_map *map) {
@@ -194,16 +206,6 @@ static lobe_resource add_closure(const transfer_build *build, const reduced_map 
     return closure;
 }
 
-static void fail_size(const filter_context *context, const device_material *material,
-                      const transfer_kind *kind) {
-    const device_map *map = &material->maps[MAP_HEIGHT];
-    lobe_graph_fail(context->graph, LOBE_ERROR_LIMIT,
-                    "%s: a height map of %u x %u texels is too large for filter '%s': it has more "
-                    "than %.1f million",
-                    material->material->name, map->width, map->height,
-                    lobe_filter_name(context->filter), passes_facets_limit(kind));
-}
-
 transfer_map passes_transfer_map_declare(const filter_context *context, uint32_t index,
                                          const transfer_kind *kind) {
     const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
@@ -231,24 +233,51 @@ uint32_t passes_transfer_images(const device_material *material, const transfer_
     return kind->normals ? 2 : 1;
 }
 
-static facet_range all_facets(const device_material *material) {
-    return passes_facets_share(&material->maps[MAP_HEIGHT], 1, 1);
+uint64_t passes_transfer_facets(const transfer_kind *kind) {
+    const uint64_t limit = passes_window_limit();
+    return kind->most_facets > 0 && kind->most_facets < limit ? kind->most_facets : limit;
+}
+
+static window_grid grid_of(const device_material *material, const transfer_kind *kind) {
+    return passes_window_grid(&material->maps[MAP_HEIGHT], passes_transfer_facets(kind));
+}
+
+bool passes_transfer_is_whole(const device_material *material, const transfer_kind *kind) {
+    const window_grid grid = grid_of(material, kind);
+    return grid.columns * grid.rows == 1;
+}
+
+static facet_range all_facets(const facet_window *window) {
+    return (facet_range){0, passes_window_facets(window)};
 }
 
 uint32_t passes_transfer_part_count(const device_material *material, const transfer_kind *kind) {
-    return passes_facets_part_count(all_facets(material), kind) + 1;
+    const window_grid grid = grid_of(material, kind);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < grid.columns * grid.rows; i++) {
+        const facet_window window = passes_window(&grid, i);
+        count += passes_facets_part_count(all_facets(&window), kind) + 1;
+    }
+    return count;
 }
 
-/// Light between facets, the map and what belongs to it.
-static void add_map(const filter_context *context, transfer_build *build, transfer_map *result) {
+/// Light between the facets of a window, and the map's part of it. Returns the last pass.
+static lobe_pass *add_window(const filter_context *context, transfer_build *build, bool is_first,
+                             reduced_map *map) {
+    lobe_pass *last = NULL;
     build->colours = build->seen.links;
     if (build->kind->coloured)
         add_colours(context, build);
     for (uint32_t channel = 0; channel < (build->kind->coloured ? 3 : 1); channel++) {
         add_bounces(build, channel);
-        add_cells(build, channel, &result->map);
+        last = add_cells(build, channel, is_first, map);
     }
-    passes_level_reduction(context->graph, &result->map);
+    return last;
+}
+
+/// What belongs to the map as a whole.
+static void add_rest(transfer_build *build, transfer_map *result) {
+    passes_level_reduction(build->graph, &result->map);
     if (build->kind->normals)
         add_normals(build, &result->facets);
     char name[64];
@@ -256,26 +285,55 @@ static void add_map(const filter_context *context, transfer_build *build, transf
     result->closure = add_closure(build, &result->map, name);
 }
 
+/// One window after the other, as far as `parts` goes. False: some are left.
+static bool add_windows(const filter_context *context, transfer_build *build,
+                        const facets_request *request, const window_grid *grid, uint32_t parts,
+                        reduced_map *map) {
+    lobe_pass *last = NULL; // of the windows before, whose facets are no longer there
+    for (uint32_t i = 0; i < grid->columns * grid->rows; i++) {
+        build->window = passes_window(grid, i);
+        const facet_range all = all_facets(&build->window);
+        const uint32_t needed = passes_facets_part_count(all, build->kind) + 1;
+        const bool is_current = parts <= needed;
+        passes_facets_add(request, &build->window, all, parts, request->in_parts && is_current,
+                          &build->seen);
+        if (parts < needed) {
+            if (request->in_parts && last)
+                lobe_pass_keep(last);
+            return false;
+        }
+        parts -= needed;
+        last = add_window(context, build, i == 0, map);
+    }
+    return true;
+}
+
+/// The largest window of a grid: the first.
+static uint32_t most_facets(const window_grid *grid) {
+    const facet_window window = passes_window(grid, 0);
+    return passes_window_facets(&window);
+}
+
 transfer_map passes_transfer_map(const filter_context *context, uint32_t index,
                                  const transfer_kind *kind, const relief *relief,
                                  const seen_facets *seen, uint32_t parts, bool in_parts) {
-    const device_material *material = &context->scene->materials[index];
-    if (!passes_facets_fit(&material->maps[MAP_HEIGHT], kind)) {
-        fail_size(context, material, kind);
-        return (transfer_map){0};
-    }
-    const facet_range all = all_facets(material);
+    const window_grid grid = grid_of(&context->scene->materials[index], kind);
+    const facets_request request = {context->graph, index, relief, kind, in_parts};
+    transfer_map result = passes_transfer_map_declare(context, index, kind);
     transfer_build build = {
         .graph = context->graph,
         .kind = kind,
         .material = index,
         .relief = *relief,
-        .facets = all.count,
+        .seen = seen ? *seen : passes_facets_begin(&request, most_facets(&grid)),
+        .window = passes_window(&grid, 0),
     };
-    transfer_map result = passes_transfer_map_declare(context, index, kind);
-    build.seen =
-        seen ? *seen : passes_facets(context->graph, index, relief, kind, all, parts, in_parts);
-    if (seen || parts > passes_facets_part_count(all, kind))
-        add_map(context, &build, &result);
+    bool is_whole = seen != NULL;
+    if (seen)
+        add_window(context, &build, true, &result.map);
+    else
+        is_whole = add_windows(context, &build, &request, &grid, parts, &result.map);
+    if (is_whole)
+        add_rest(&build, &result);
     return result;
 }

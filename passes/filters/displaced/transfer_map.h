@@ -23,14 +23,20 @@ bool passes_has_coloured_relief(const device_material *material);
 uint32_t passes_transfer_images(const device_material *material, const transfer_kind *kind,
                                 kept_image images[2]);
 
-/// The parts of the work: bands of facet_transfer, bands of facet_links, then all the rest.
+/// The most facets that buffers hold at a time.
+uint64_t passes_transfer_facets(const transfer_kind *kind);
+/// Whether they hold all of the material's relief, which is then made in one window.
+bool passes_transfer_is_whole(const device_material *material, const transfer_kind *kind);
+
+/// The parts of the work, window by window: bands of facet_transfer, bands of facet_links, then its
+/// part of the map, and all the rest with the last one.
 uint32_t passes_transfer_part_count(const device_material *material, const transfer_kind *kind);
 
 /// Adds the passes that make it for a material with a relief: those of passes_facets,
 /// facet_colours, facet_bounces, cell_transfer, facet_normals, level_reduction and
 /// transfer_closure. They run when the height map or its scale changes; when colours do only if
-/// `coloured`, and then without facet_transfer and facet_links. A map whose facets a buffer cannot
-/// hold fails the frame.
+/// `coloured`, and then without facet_transfer and facet_links of a relief that is made in one
+/// window.
 /// `parts`: those that are added, from the first on; UINT32_MAX: all. Without the last one, the map
 /// has no content. `in_parts`: what later parts need is kept between frames, see passes_facets.
 /// `seen`: what all facets see, if that was found elsewhere; NULL: it is found here.

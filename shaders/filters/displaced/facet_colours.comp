@@ -49,7 +49,8 @@ void main() {
     if (index >= 2u * constants.width * constants.height)
         return;
     uint quad = index / 2u;
-    vec2 vertex = vec2(quad % constants.width, quad / constants.width) + 0.5;
+    vec2 vertex = vec2(constants.origin_x + quad % constants.width,
+                       constants.origin_y + quad / constants.width) + 0.5;
     facet_colours mean = facet_colours(vec3(0.0), vec3(0.0));
     uint count = constants.points * constants.points;
     for (uint i = 0u; i < count; ++i) {
@@ -57,7 +58,7 @@ void main() {
         if ((index & 1u) != 0u)
             inside = inside.yx;
         facet_colours colours =
-            colours_at((vertex + inside) / vec2(constants.width, constants.height));
+            colours_at((vertex + inside) / vec2(constants.relief_width, constants.relief_height));
         mean.diffuse += colours.diffuse / float(count);
         mean.reflected += colours.reflected / float(count);
     }

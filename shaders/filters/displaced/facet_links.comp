@@ -24,7 +24,9 @@ void main() {
         return;
     facet own = facet_of(index);
     mat3 frame = frame_about(own.normal);
-    uint seed = hash(index);
+    // Of the facet in the relief, so that windows do not matter.
+    uint seed = hash(2u * (uint(own.quad.y) * relief.width + uint(own.quad.x)) +
+                     (own.upper ? 1u : 0u));
     float turn = hashed_number(seed);
     uint first = (index - transfer.first_facet) * TRANSFER_LINKS;
     for (uint i = 0u; i < TRANSFER_LINKS; ++i) {

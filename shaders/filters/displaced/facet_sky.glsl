@@ -19,7 +19,7 @@ float own_horizon(vec3 normal, vec2 along) {
 // the sky is seen.
 void see_sky(uint quad, out float lower[16], out float upper[16]) {
     vec3 lower_normal = facet_of(2u * quad).normal, upper_normal = facet_of(2u * quad + 1u).normal;
-    ivec2 place = ivec2(quad % transfer.width, quad / transfer.width);
+    ivec2 place = quad_of(quad);
     vec4 corners = quad_heights(place);
     vec3 middle = vec3(vec2(place) + 0.5, 0.5 * (corners.x + corners.w));
     for (int k = 0; k < 16; ++k)

@@ -1,7 +1,8 @@
 #ifndef FACETS_GLSL
 #define FACETS_GLSL
 
-// Facets by number: two for each quad, the upper one second.
+// Facets by number within a window (interface/displacement/relief.h): two for each quad, the upper
+// one second.
 
 #include "filters/displaced/height_field.glsl"
 
@@ -19,10 +20,19 @@ uint facet_count() {
     return 2u * transfer.width * transfer.height;
 }
 
+ivec2 window_origin() {
+    return ivec2(transfer.origin_x, transfer.origin_y);
+}
+
+// In the relief's first period.
+ivec2 quad_of(uint quad) {
+    return first_period(window_origin() +
+                        ivec2(quad % transfer.width, quad / transfer.width));
+}
+
 facet facet_of(uint index) {
     facet result;
-    uint quad = index / 2u;
-    result.quad = ivec2(quad % transfer.width, quad / transfer.width);
+    result.quad = quad_of(index / 2u);
     result.upper = (index & 1u) != 0u;
     vec4 corners = quad_heights(result.quad);
     result.slope = facet_slope(corners, result.upper);
@@ -33,7 +43,9 @@ facet facet_of(uint index) {
 }
 
 uint facet_index(ivec2 quad, bool upper) {
-    return 2u * (uint(quad.y) * transfer.width + uint(quad.x)) + (upper ? 1u : 0u);
+    uvec2 inside = uvec2(first_period(quad - window_origin())) %
+                   uvec2(transfer.width, transfer.height);
+    return 2u * (inside.y * transfer.width + inside.x) + (upper ? 1u : 0u);
 }
 
 #endif

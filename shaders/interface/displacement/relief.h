@@ -116,36 +116,56 @@ INTERFACE_OFFSET(transfer_closure_constants, radius, 764)
 #define FACET_BINS 5
 
 // Push constants of the passes between.
+//
+// Buffers of facets hold those of a *window* of the relief, by number within it: of all quads, or,
+// where these are too many, of a tile and what is around it. A facet beyond the window is taken for
+// the one that lies whole windows away within it.
 struct transfer_constants {
-    uint width; // quads
+    uint width; // quads of the window
     uint height;
     uint azimuths;
     uint first;        // facet_bounces: 1 in the first step
     uint channel;      // of colour, where that varies
     uint first_thread; // of a band of facet_transfer or facet_links
     uint first_facet;  // of the buffer that these write
+    uint origin_x;     // of the window, in the relief: quads
+    uint origin_y;
+    uint first_column; // of the cells that cell_transfer makes of a window: texels of the map
+    uint first_row;
 };
-INTERFACE_SIZE(transfer_constants, 28)
+INTERFACE_SIZE(transfer_constants, 44)
 INTERFACE_OFFSET(transfer_constants, height, 4)
 INTERFACE_OFFSET(transfer_constants, azimuths, 8)
 INTERFACE_OFFSET(transfer_constants, first, 12)
 INTERFACE_OFFSET(transfer_constants, channel, 16)
 INTERFACE_OFFSET(transfer_constants, first_thread, 20)
 INTERFACE_OFFSET(transfer_constants, first_facet, 24)
+INTERFACE_OFFSET(transfer_constants, origin_x, 28)
+INTERFACE_OFFSET(transfer_constants, origin_y, 32)
+INTERFACE_OFFSET(transfer_constants, first_column, 36)
+INTERFACE_OFFSET(transfer_constants, first_row, 40)
 
 // Push constants of facet_colours.
 struct colour_constants {
     float4 base_colour; // factor of the map
-    uint width;         // quads
+    uint width;         // quads of the window
     uint height;
     uint points;    // at which colours are read in each facet, along a side
     float metallic; // factor of the map
+    uint origin_x;  // of the window
+    uint origin_y;
+    uint relief_width; // quads
+    uint relief_height;
 };
-INTERFACE_SIZE(colour_constants, 32)
+INTERFACE_SIZE(colour_constants, 48)
 INTERFACE_OFFSET(colour_constants, width, 16)
 INTERFACE_OFFSET(colour_constants, height, 20)
 INTERFACE_OFFSET(colour_constants, points, 24)
 INTERFACE_OFFSET(colour_constants, metallic, 28)
+INTERFACE_OFFSET(colour_constants, origin_x, 32)
+INTERFACE_OFFSET(colour_constants, origin_y, 36)
+INTERFACE_OFFSET(colour_constants, relief_width, 40)
+INTERFACE_OFFSET(colour_constants, relief_height, 44)
 
 // uint, 4 to 9: how many functions C has
 #define SPECIALISE_TRANSFER_ORDER (SPECIALISE_FILTER + 32)

@@ -316,7 +316,7 @@ static void coming_nearer_finds_no_transfer_again(void **state) {
 static void maps_that_no_buffer_holds_are_refused(void **state) {
     fixture *f = *state;
     const lobe_material material = relief_material(1);
-    lobe_scene *scene = relief_plane(&material, map_image(LOBE_FORMAT_R8_UNORM, 4096, 2048),
+    lobe_scene *scene = relief_plane(&material, map_image(LOBE_FORMAT_R8_UNORM, 8192, 4096),
                                      (double[]){0, 0, 1}, 4);
     scene_end(scene);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
