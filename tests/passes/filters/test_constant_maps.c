@@ -106,8 +106,9 @@ static void check_base(fixture *f, const lobe_material *material, const char *wh
     lobe_frame_free(&expected.lobe);
 }
 
-/// Level 1 and above, and once level 0.
-static void check_material(fixture *f, const lobe_material *material) {
+/// Level 1 and above, and once level 0. `turned`: also with base lobes turned into von Mises-Fisher
+/// lobes, of normals that lean; it is the same code for all materials of a model.
+static void check_material(fixture *f, const lobe_material *material, bool turned) {
     static const float normals[][3] = {
         {0, 0, 1}, {0.28f, 0, 0.96f}, {-0.36f, 0.48f, 0.8f}, {-0.36f, 0.48f, 0.8f}};
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
@@ -122,7 +123,8 @@ static void check_material(fixture *f, const lobe_material *material) {
                  microfacet ? "microfacets" : "half-vector lobes", (double)normal[0],
                  (double)normal[1], (double)normal[2], tiles);
         check_base(f, material, what, "base=exact", i > 0);
-        check_base(f, material, what, "base=lobe", i > 0);
+        if (turned && i == 2)
+            check_base(f, material, what, "base=lobe", true);
         assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
         lobe_scene_destroy(&scene);
     }
@@ -135,7 +137,7 @@ static void microfacets_stay_as_they_are(void **state) {
         material.distribution = (lobe_distribution)distribution;
         material.roughness = 0.5f;
         material.metallic = 0.8f;
-        check_material(*state, &material);
+        check_material(*state, &material, distribution == LOBE_DISTRIBUTION_GGX);
     }
 }
 
@@ -146,11 +148,11 @@ static void half_vector_lobes_stay_as_they_are(void **state) {
     for (int i = 0; i < 2; i++) {
         lobe_material material = half_vector_material(distributions[i], 60);
         material.base_colour[0] = 0.3f;
-        check_material(*state, &material);
+        check_material(*state, &material, false);
         material.lobe_count = 2;
         material.lobes[0] = (lobe_base_lobe){{0.6f, 0, 0.8f}, 60, {1, 1, 1}};
         material.lobes[1] = (lobe_base_lobe){{-0.6f, 0, 0.8f}, 30, {0.5f, 0.5f, 0.5f}};
-        check_material(*state, &material);
+        check_material(*state, &material, i == 0);
     }
 }
 

@@ -1,5 +1,7 @@
 // Values at the ends of their ranges, and outside of what maps should hold, give finite pictures
-// without negative light, with every filter.
+// without negative light, with every filter: each value is drawn by half of the filters with
+// microfacets and by the others with half-vector lobes, because each picture has shaders of its
+// own.
 
 #include "tests/passes/support/fixture.h"
 
@@ -74,22 +76,22 @@ static void check_picture(fixture *f, const extreme *what, bool microfacet, cons
     lobe_frame_free(&frame);
 }
 
-static void check_extreme(fixture *f, const extreme *what, bool microfacet) {
+/// `turn`: with the filters of even numbers, or of odd ones.
+static void check_extreme(fixture *f, const extreme *what, bool microfacet, size_t turn) {
     lobe_scene *scene = extreme_scene(what, microfacet);
     if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
         fail_msg("%s: %s", what->name, f->error);
-    for (size_t i = 0; i < lobe_filter_count(); i++)
+    for (size_t i = turn % 2; i < lobe_filter_count(); i += 2)
         check_picture(f, what, microfacet, lobe_filter_name(lobe_filter_get(i)), NULL);
-    check_picture(f, what, microfacet, "lobes", "epsilon0=0.999");
-    check_picture(f, what, microfacet, "lobes", "space=camera");
+    check_picture(f, what, microfacet, "lobes", turn % 2 ? "epsilon0=0.999" : "space=camera");
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     lobe_scene_destroy(&scene);
 }
 
 static void check_all(fixture *f, const extreme *extremes, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        check_extreme(f, &extremes[i], false);
-        check_extreme(f, &extremes[i], true);
+        check_extreme(f, &extremes[i], false, i);
+        check_extreme(f, &extremes[i], true, i + 1);
     }
 }
 
