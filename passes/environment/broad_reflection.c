@@ -5,17 +5,10 @@
 
 #include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
-#include "shaders/interface/environment/reflected_lobes.h"
 #include "shaders/interface/specialisation.h"
 
 const lobe_sampler passes_broad_reflection_sampler = {
     .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
-
-bool passes_reflects_broadly(const lobe_material *material) {
-    return material->model == LOBE_MATERIAL_MICROFACET && material->metallic > 0 &&
-           (material->roughness > REFLECTED_LOBES_LEAST_ROUGHNESS ||
-            material->normal_map.image >= 0);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Least squares over spherical harmonics

@@ -1,17 +1,11 @@
 #ifndef PASSES_ENVIRONMENT_BROAD_REFLECTION_H
 #define PASSES_ENVIRONMENT_BROAD_REFLECTION_H
 
-#include <stdbool.h>
-
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
 /// How shaders sample the table: linearly, clamped to the edge.
 extern const lobe_sampler passes_broad_reflection_sampler;
-
-/// Whether a material's reflection is so strong and so broad that its shading reads the table:
-/// rough metal, and metal that normals may make so.
-bool passes_reflects_broadly(const lobe_material *material);
 
 /// Adds the pass that tabulates what rough microfacets reflect as a lobe and a polynomial over the
 /// hemisphere: a retained RGBA32_FLOAT image of BROAD_REFLECTION_SIZE squared and

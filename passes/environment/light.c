@@ -11,8 +11,10 @@
 #include "passes/environment/maps.h"
 #include "passes/environment/reflected_lobes.h"
 #include "passes/maps/filtered_maps.h"
+#include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
+#include "shaders/interface/environment/reflected_lobes.h"
 
 /// Maximum number of texels along a face that the exact integral sums. Lavapipe silently ends the
 /// loops of a shader after 65535 iterations in total, and filters have loops of their own: a closed
@@ -59,11 +61,26 @@ static bool uses_ggx(const filter_context *context) {
     return !as_lobes && uses_distribution(context, LOBE_DISTRIBUTION_GGX);
 }
 
-/// Whether a material's light is that of several lobes, or of a lobe and of moments.
-static bool reflects_broadly(const filter_context *context, const environment_light *light,
-                             const lobe_material *material) {
-    return light->present && light->method == ENVIRONMENT_PREFILTERED &&
-           passes_knob_choice(context, &passes_knob_base) == 0 && passes_reflects_broadly(material);
+/// REFLECTED_AS_...: how light of a material's roughnesses is found, beside a lobe: that of metal
+/// that is rough, or that normals may make so.
+static uint32_t broad_reflection_of(const filter_context *context, const environment_light *light,
+                                    const device_material *material) {
+    const lobe_material *source = material->material;
+    const bool metal = material->metallic_varies || material->metallic > 0;
+    if (!light->present || light->method != ENVIRONMENT_PREFILTERED ||
+        passes_knob_choice(context, &passes_knob_base) > 0 ||
+        source->model != LOBE_MATERIAL_MICROFACET || !metal)
+        return 0;
+    const bool widened =
+        (material->map_bits & 1u << MAP_NORMAL) || source->normal_concentration > 0;
+    const float least = material->map_bits & 1u << MAP_WIDTH ? 0 : source->roughness;
+    const float greatest = widened ? 1 : source->roughness;
+    uint32_t ways = 0;
+    if (greatest > REFLECTED_LOBES_LEAST_ROUGHNESS && least < BROAD_FULL_ROUGHNESS)
+        ways |= REFLECTED_AS_LOBES;
+    if (greatest > BROAD_LEAST_ROUGHNESS)
+        ways |= REFLECTED_AS_POLYNOMIAL;
+    return ways;
 }
 
 static lobe_resource albedo_table(lobe_graph *graph, environment_light *light,
@@ -93,15 +110,18 @@ static void build_albedo(const filter_context *context, environment_light *light
     }
 }
 
+/// `ways`: REFLECTED_AS_...
 static void build_reflection_tables(const filter_context *context, environment_light *light,
-                                    lobe_distribution distribution, lobe_distribution masking) {
-    if (light->broad[distribution][masking].version)
-        return;
-    light->broad[distribution][masking] = passes_broad_reflection(
-        context->graph, distribution, masking,
-        (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
-    light->lobes[distribution][masking] =
-        passes_reflected_lobes(context->graph, distribution, masking);
+                                    uint32_t ways, lobe_distribution distribution,
+                                    lobe_distribution masking) {
+    lobe_resource *lobes = &light->lobes[distribution][masking];
+    lobe_resource *broad = &light->broad[distribution][masking];
+    if ((ways & REFLECTED_AS_LOBES) && !lobes->version)
+        *lobes = passes_reflected_lobes(context->graph, distribution, masking);
+    if ((ways & REFLECTED_AS_POLYNOMIAL) && !broad->version)
+        *broad = passes_broad_reflection(
+            context->graph, distribution, masking,
+            (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
 }
 
 /// `source`: what the irradiance comes from.
@@ -109,15 +129,16 @@ static void build_broad_reflection(const filter_context *context, environment_li
                                    irradiance_source source) {
     const device_scene *scene = context->scene;
     for (size_t i = 0; i < scene->scene->material_count; i++) {
-        const lobe_material *material = scene->materials[i].material;
-        if (!scene->materials[i].first_instance || !reflects_broadly(context, light, material))
-            continue;
-        if (!light->moments.version)
+        const device_material *material = &scene->materials[i];
+        const lobe_distribution distribution = material->material->distribution;
+        const uint32_t ways =
+            material->first_instance ? broad_reflection_of(context, light, material) : 0;
+        if ((ways & REFLECTED_AS_POLYNOMIAL) && !light->moments.version)
             light->moments = passes_hemisphere_moments(context->graph, source);
-        build_reflection_tables(context, light, material->distribution, material->distribution);
-        if (context->filter->slopes)
-            build_reflection_tables(context, light, LOBE_DISTRIBUTION_BECKMANN,
-                                    slope_masking(context, material->distribution));
+        build_reflection_tables(context, light, ways, distribution, distribution);
+        if (context->filter->slopes && (material->map_bits & (1u << MAP_NORMAL | 1u << MAP_WIDTH)))
+            build_reflection_tables(context, light, ways, LOBE_DISTRIBUTION_BECKMANN,
+                                    slope_masking(context, distribution));
     }
 }
 
@@ -338,12 +359,13 @@ uint32_t passes_environment_light_lights_at_once(const environment_light *light,
 
 void passes_environment_light_specialise(const environment_light *light,
                                          const filter_context *context,
-                                         const lobe_material *material, specialisation_list *list) {
+                                         const device_material *material,
+                                         specialisation_list *list) {
     if (!light->present)
         return;
     passes_specialise(list, SPECIALISE_ENVIRONMENT_METHOD, light->method);
     passes_specialise(list, SPECIALISE_BROAD_REFLECTION,
-                      reflects_broadly(context, light, material));
+                      broad_reflection_of(context, light, material));
 }
 
 /// A table that this material uses, or else white.

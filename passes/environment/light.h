@@ -84,7 +84,8 @@ uint32_t passes_environment_light_lights_at_once(const environment_light *light,
 
 void passes_environment_light_specialise(const environment_light *light,
                                          const filter_context *context,
-                                         const lobe_material *material, specialisation_list *list);
+                                         const device_material *material,
+                                         specialisation_list *list);
 
 /// Most bindings of a material.
 #define ENVIRONMENT_MATERIAL_BINDINGS 7

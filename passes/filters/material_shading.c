@@ -49,7 +49,7 @@ void passes_material_shading_specialise(const filter_context *context,
                                         const filtered_appearance *appearance,
                                         specialisation_list *list) {
     passes_material_specialise(material, list);
-    passes_environment_light_specialise(light, context, material->material, list);
+    passes_environment_light_specialise(light, context, material, list);
     passes_knobs_specialise(context, list);
     if (passes_waves_are_drawn(context, material))
         passes_waves_specialise(material, list);

@@ -8,7 +8,7 @@
 #include "interface/environment/broad_reflection.h"
 #include "lib/light/hemisphere_moments.glsl"
 
-layout(constant_id = SPECIALISE_BROAD_REFLECTION) const bool BROAD_REFLECTION = false;
+layout(constant_id = SPECIALISE_BROAD_REFLECTION) const uint BROAD_REFLECTION = 0;
 
 layout(LOBE_DESCRIPTOR(40)) uniform sampler2DArray hemisphere_moments_map;
 layout(LOBE_DESCRIPTOR(41)) uniform sampler2DArray broad_reflection_table;

@@ -201,14 +201,16 @@ struct reflection_shares {
 // normals that vary more than microfacets do: a sum about their mean ends at none of their
 // horizons.
 reflection_shares shares_of_reflection(vec3 f0, float roughness, float variance_of_normals) {
-    if (!BROAD_REFLECTION || roughness <= REFLECTED_LOBES_LEAST_ROUGHNESS)
+    if (BROAD_REFLECTION == 0u || roughness <= REFLECTED_LOBES_LEAST_ROUGHNESS)
         return reflection_shares(0.0, 0.0);
     float alpha = roughness * roughness;
     float even = 1.0 - smoothstep(0.05, 0.3, variance_of_normals / (alpha * alpha));
     float whole = even * smoothstep(REFLECTED_LOBES_LEAST_ROUGHNESS,
                                     REFLECTED_LOBES_FULL_ROUGHNESS, roughness) *
                   smoothstep(BROAD_LEAST_F0, BROAD_FULL_F0, max(max(f0.r, f0.g), f0.b));
-    float polynomial = smoothstep(BROAD_LEAST_ROUGHNESS, BROAD_FULL_ROUGHNESS, roughness);
+    float polynomial = BROAD_REFLECTION == (REFLECTED_AS_LOBES | REFLECTED_AS_POLYNOMIAL)
+                           ? smoothstep(BROAD_LEAST_ROUGHNESS, BROAD_FULL_ROUGHNESS, roughness)
+                           : float(BROAD_REFLECTION / REFLECTED_AS_POLYNOMIAL);
     return reflection_shares(whole * (1.0 - polynomial), whole * polynomial);
 }
 
@@ -238,7 +240,8 @@ vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, v
                      vec4 albedo, float roughness, float broad, bool spread_out) {
     float cosine = dot(normals.axis, surface.outgoing);
     bool tails = kind == DISTRIBUTION_GGX ||
-                 (BROAD_REFLECTION && kind == DISTRIBUTION_VMF && DISTRIBUTION == DISTRIBUTION_GGX);
+                 (BROAD_REFLECTION != 0u && kind == DISTRIBUTION_VMF &&
+                  DISTRIBUTION == DISTRIBUTION_GGX);
     reflection_lobe base = lobe_of_reflection(tails, cosine, roughness);
     const float diffuse_share = base.diffuse_share;
     facing_reflection reflection;
@@ -247,7 +250,8 @@ vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, v
     vec3 mixed = mix(reflection.lobe, vec3(albedo.x * (1.0 - diffuse_share) + albedo.y), broad);
     base = mixed_lobe(base, lobe_of_grazing_reflection(cosine, roughness),
                       3.0 * albedo.y / max(mixed.r + mixed.g + mixed.b, 1e-10));
-    if (broad > 0.0)
+    bool polynomial = (BROAD_REFLECTION & REFLECTED_AS_POLYNOMIAL) != 0u && broad > 0.0;
+    if (polynomial)
         base = completed_lobe(base, cosine, broad);
     direction_lobe own = incoming_lobe(base, normals.axis, surface.outgoing), incoming = own;
     float resultant = 1.0;
@@ -263,7 +267,7 @@ vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, v
     reflection.gathered = broad < 1.0 ? f0 * (albedo.x * diffuse_share) *
                                             irradiance_above(surface, resultant * normals.axis)
                                       : vec3(0.0);
-    if (broad > 0.0) {
+    if (polynomial) {
         facing_reflection other =
             broad_facing_reflection(surface, normals.axis, kind, f0, albedo, roughness);
         reflection.lobe = mix(reflection.lobe, other.lobe, broad);
@@ -287,12 +291,11 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     reflection_shares shares = shares_of_reflection(f0, roughness, variance);
     vec4 albedo = albedo_of_lobe(kind, cosine, parameter);
     vec3 sum = vec3(0.0);
-    if (shares.lobes > 0.0) {
-        bool cut = HORIZON != HORIZON_IGNORED && has_map(MAP_NORMAL);
-        sum = shares.lobes * (f0 * albedo.x + albedo.y) *
+    if ((BROAD_REFLECTION & REFLECTED_AS_LOBES) != 0u)
+        sum = (f0 * albedo.x + albedo.y) *
               light_of_reflected_lobes(surface, normals.axis, kind, f0, roughness, 0.5 * variance,
-                                       cut);
-    }
+                                       HORIZON != HORIZON_IGNORED && has_map(MAP_NORMAL),
+                                       shares.lobes);
     float rest = 1.0 - shares.lobes;
     if (rest > 0.0)
         sum += rest * reflect_as_lobe(surface, normals, kind, f0, albedo, roughness,

@@ -6,13 +6,19 @@
 // Distributions, section 3. The directions that light is reflected from take the place of the data,
 // with the light as their weights. Every step keeps their mean, and no weight is negative. No
 // environment goes into it.
+//
+// The lobes are those that one trilinear fetch reads, blends of two von Mises-Fisher lobes four
+// times as concentrated as one another: were they von Mises-Fisher lobes themselves, then fetches,
+// which are up to 13 % off these, would show what the sum does not say.
 
 #include "interface/environment/reflected_lobes.h"
 #include "environment/reflected_rings.glsl"
-#include "lib/lobe/von_mises_fisher.glsl"
+#include "lib/light/environment_level.glsl"
 
 // More change little, and fewer let neighbouring texels differ less.
 const int STEPS = 40;
+// Of cubes with faces of 4096 texels.
+const float GREATEST_LEVEL = 12.0;
 
 // One workgroup per texel, one invocation per ring.
 layout(local_size_x = RINGS) in;
@@ -20,16 +26,37 @@ layout(local_size_x = RINGS) in;
 layout(set = 0, binding = 0) uniform writeonly image2DArray reflected_lobes;
 
 struct lobe_pair {
-    vec3 axis; // beside: y >= 0
-    float concentration, weight;
-    float peak; // of its density, times the weight
+    vec3 axis;   // beside: y >= 0
+    float level; // as the table has it
+    float weight;
+    // Of the finer and the coarser level that are blended:
+    vec2 concentration;
+    vec2 peak; // of the density, times the weight
 };
 
 shared lobe_pair lobes[REFLECTED_LOBES];
 shared vec4 ring_sums[REFLECTED_LOBES][RINGS];
 
-lobe_pair lobe_pair_of(vec3 axis, float concentration, float weight) {
-    return lobe_pair(axis, concentration, weight, weight * von_mises_fisher_peak(concentration));
+float concentration_of_level(float level) {
+    return prefiltered_concentration(exp2(level), 0.0);
+}
+
+// Whose mean resultant length is 1 - `complement`: what is blended linearly.
+lobe_pair lobe_pair_of(vec3 axis, float complement, float weight) {
+    float concentration = concentration_from_complement(complement);
+    float coarser = clamp(floor(2.0 + 0.5 * log2(concentration)), 0.0, GREATEST_LEVEL - 1.0);
+    lobe_pair lobe;
+    lobe.axis = axis;
+    lobe.weight = weight;
+    lobe.concentration =
+        vec2(concentration_of_level(coarser + 1.0), concentration_of_level(coarser));
+    float finest = mean_resultant_complement(lobe.concentration.x);
+    float broadest = mean_resultant_complement(lobe.concentration.y);
+    float share = clamp((broadest - complement) / (broadest - finest), 0.0, 1.0);
+    lobe.level = coarser + share;
+    lobe.peak = weight * vec2(share * von_mises_fisher_peak(lobe.concentration.x),
+                              (1.0 - share) * von_mises_fisher_peak(lobe.concentration.y));
+    return lobe;
 }
 
 // Spread over the angles where most light comes from. The first is broad from the beginning: where
@@ -44,27 +71,28 @@ lobe_pair first_guess(int i, float outgoing_angle, float alpha) {
                                  float(REFLECTED_LOBES - REFLECTED_LOBES_IN_PLANE);
     float angle = mix(lowest, highest, place);
     return lobe_pair_of(normalize(vec3(-sin(angle), in_plane ? 0.0 : 2.0 * alpha, cos(angle))),
-                        (i == 0 ? 0.2 : 1.0) / (alpha * alpha), in_plane ? 1.0 : 2.0);
+                        mean_resultant_complement((i == 0 ? 0.2 : 1.0) / (alpha * alpha)),
+                        in_plane ? 1.0 : 2.0);
 }
 
 // How much of a direction and its mirror image each lobe accounts for: x, that of y by y: the
 // difference of both over their sum.
 void shares_of_lobes(vec3 direction, out vec2 shares[REFLECTED_LOBES]) {
-    float exponents[REFLECTED_LOBES], greatest = -1e30;
+    float exponents[REFLECTED_LOBES], greatest = -1e30; // those of the coarser levels are greater
     for (int i = 0; i < REFLECTED_LOBES; ++i) {
-        exponents[i] = -0.5 * lobes[i].concentration *
-                       difference_squared(direction, lobes[i].axis);
-        greatest = max(greatest, exponents[i]);
+        exponents[i] = -0.5 * difference_squared(direction, lobes[i].axis);
+        greatest = max(greatest, lobes[i].concentration.y * exponents[i]);
     }
     float sum = 0.0;
     for (int i = 0; i < REFLECTED_LOBES; ++i) {
-        float other =
-            i < REFLECTED_LOBES_IN_PLANE
-                ? 1.0
-                : exp(-2.0 * lobes[i].concentration * lobes[i].axis.y * direction.y);
-        float density = lobes[i].peak * exp(exponents[i] - greatest) * (1.0 + other);
-        shares[i] = vec2(density, (1.0 - other) / (1.0 + other));
-        sum += density;
+        vec2 concentration = lobes[i].concentration;
+        vec2 density = lobes[i].peak * exp(concentration * exponents[i] - greatest);
+        vec2 other = i < REFLECTED_LOBES_IN_PLANE
+                         ? density
+                         : density * exp(-2.0 * concentration * lobes[i].axis.y * direction.y);
+        float both = density.x + density.y + other.x + other.y;
+        shares[i] = vec2(both, (density.x + density.y - other.x - other.y) / max(both, 1e-30));
+        sum += both;
     }
     for (int i = 0; i < REFLECTED_LOBES; ++i)
         shares[i].x /= sum;
@@ -73,9 +101,7 @@ void shares_of_lobes(vec3 direction, out vec2 shares[REFLECTED_LOBES]) {
 // The lobe of directions whose sum, and whose weight, are given.
 lobe_pair lobe_of_sum(vec4 sum) {
     float weight = max(sum.w, 1e-20), size = max(length(sum.xyz), 1e-20);
-    float resultant = min(size / weight, 1.0 - 1e-5);
-    float concentration = concentration_from_resultant(resultant, 1.0 - resultant);
-    return lobe_pair_of(sum.xyz / size, clamp(concentration, 0.1, 1e5), sum.w);
+    return lobe_pair_of(sum.xyz / size, clamp(1.0 - size / weight, 1e-5, 1.0), sum.w);
 }
 
 void main() {
@@ -131,5 +157,5 @@ void main() {
     lobe_pair lobe = lobes[own];
     imageStore(reflected_lobes, ivec3(texel, own),
                vec4(atan(-lobe.axis.x, lobe.axis.z) - acos(cosine), lobe.axis.y,
-                    log(lobe.concentration), lobe.weight / weights));
+                    lobe.level, lobe.weight / weights));
 }

@@ -22,20 +22,11 @@ vec4 reflected_lobe_row(uint kind, vec2 place, int i) {
     return textureLod(reflected_lobes_table, vec3(place, float(i)), 0.0);
 }
 
-// Towards one viewer, about one normal.
-struct reflecting_surface {
-    vec3 normal, forward, beside; // of the tangent frame; forward: away from the viewer
-    float mirror_angle;           // from the normal, radians
-    float variance_of_normals;    // of the directions that they turn a lobe to, per axis
-    bool cut;                     // by the horizon of the mapped surface
-};
-
 // What is left of a round lobe above the surface, whose own normal's horizon has already cut it:
 // `direction` moves up if the lobe is clipped.
-float lobe_share_above_surface(reflecting_surface reflecting, float concentration,
-                               inout vec3 direction) {
+float lobe_share_above_surface(vec3 normal, float concentration, inout vec3 direction) {
     float narrow = sqrt(concentration);
-    float own = max(narrow * dot(direction, reflecting.normal), -3.0);
+    float own = max(narrow * dot(direction, normal), -3.0);
     float height = max(narrow * direction.z, -3.0);
     float share_before = max(normal_below(own), 0.05), share = normal_below(height);
     if (HORIZON == HORIZON_CLIPPED) {
@@ -46,50 +37,45 @@ float lobe_share_above_surface(reflecting_surface reflecting, float concentratio
     return CLOSED ? 1.0 : min(share / share_before, 1.0);
 }
 
-struct reflected_sum {
-    vec3 light, weight;
-};
-
-void add_reflected_lobe(inout reflected_sum sum, surface_point surface,
-                        reflecting_surface reflecting, vec3 direction, float concentration,
-                        float weight, vec3 f0) {
-    float half_cosine = sqrt(max(0.5 + 0.5 * dot(direction, surface.outgoing), 0.0));
-    vec3 part = weight * fresnel_schlick(f0, vec3(1.0), half_cosine);
-    sum.weight += part;
-    if (reflecting.cut)
-        part *= lobe_share_above_surface(reflecting, concentration, direction);
-    sum.light += part * round_radiance(surface, DISTRIBUTION_VMF, direction, concentration);
-}
-
-// For unit reflectance: the light over what it is in white surroundings.
+// For unit reflectance: the light over what it is in white surroundings. `variance_of_normals`: per
+// axis. `cut`: by the horizon of the mapped surface. `share`: of this light that is asked for; 0
+// costs nothing even where other pixels ask for some.
 vec3 light_of_reflected_lobes(surface_point surface, vec3 normal, uint kind, vec3 f0,
-                              float roughness, float variance_of_normals, bool cut) {
+                              float roughness, float variance_of_normals, bool cut, float share) {
     const float size = float(REFLECTED_LOBES_SIZE);
     float cosine = clamp(dot(normal, surface.outgoing), 0.0, 1.0);
     float row = (roughness - REFLECTED_LOBES_LEAST_ROUGHNESS) /
                 (REFLECTED_LOBES_GREATEST_ROUGHNESS - REFLECTED_LOBES_LEAST_ROUGHNESS);
     vec2 place = (clamp(vec2(sqrt(cosine), row), 0.0, 1.0) * (size - 1.0) + 0.5) / size;
     vec3 forward = -perpendicular_towards(normal, surface.outgoing);
+    vec3 beside = cross(normal, forward);
+    float mirror_angle = acos(cosine);
     // Normals turn directions by up to 2 in the plane of reflection and 2 cosine across it.
     float turned = 2.0 * (1.0 + cosine * cosine) * variance_of_normals;
-    reflecting_surface reflecting =
-        reflecting_surface(normal, forward, cross(normal, forward), acos(cosine), turned, cut);
-    reflected_sum sum = reflected_sum(vec3(0.0), vec3(0.0));
-    for (int i = 0; i < REFLECTED_LOBES; ++i) {
-        vec4 lobe = reflected_lobe_row(kind, place, i);
-        float angle = reflecting.mirror_angle + lobe.x;
-        float concentration = 1.0 / (exp(-lobe.z) + reflecting.variance_of_normals);
-        vec3 in_plane = sqrt((1.0 - lobe.y) * (1.0 + lobe.y)) *
-                        (cos(angle) * normal + sin(angle) * forward);
+    float finest = log2(float(textureSize(prefiltered_environment, 0).x));
+    vec3 light = vec3(0.0), weights = vec3(0.0);
+    int count = share > 0.0 ? 2 * REFLECTED_LOBES - REFLECTED_LOBES_IN_PLANE : 0;
+    for (int i = 0; i < count; ++i) {
+        int pair = (i - REFLECTED_LOBES_IN_PLANE) / 2;
         bool single = i < REFLECTED_LOBES_IN_PLANE;
-        float weight = single ? lobe.w : 0.5 * lobe.w;
-        add_reflected_lobe(sum, surface, reflecting, in_plane + lobe.y * reflecting.beside,
-                           concentration, weight, f0);
-        if (!single)
-            add_reflected_lobe(sum, surface, reflecting, in_plane - lobe.y * reflecting.beside,
-                               concentration, weight, f0);
+        vec4 lobe = reflected_lobe_row(kind, place, single ? i : REFLECTED_LOBES_IN_PLANE + pair);
+        float angle = mirror_angle + lobe.x;
+        vec3 direction = sqrt((1.0 - lobe.y) * (1.0 + lobe.y)) *
+                             (cos(angle) * normal + sin(angle) * forward) +
+                         ((i & 1) == 0 ? lobe.y : -lobe.y) * beside;
+        // Of a level of t texels the variance is 16/t^2.
+        float texels = exp2(lobe.z), concentration = texels * texels / 16.0;
+        float broader = 1.0 + turned * concentration;
+        float half_cosine = sqrt(max(0.5 + 0.5 * dot(direction, surface.outgoing), 0.0));
+        vec3 part = (single ? lobe.w : 0.5 * lobe.w) *
+                    fresnel_schlick(f0, vec3(1.0), half_cosine);
+        weights += part;
+        if (cut)
+            part *= lobe_share_above_surface(normal, concentration / broader, direction);
+        light += part * textureLod(prefiltered_environment, to_environment(surface, direction),
+                                   finest - lobe.z + 0.5 * log2(broader)).rgb;
     }
-    return environment.intensity * sum.light / max(sum.weight, 1e-6);
+    return environment.intensity * share * light / max(weights, 1e-6);
 }
 
 #endif

@@ -19,8 +19,8 @@
 #define BROAD_REFLECTION_LAYERS 6
 // Smoother surfaces reflect a sum of lobes (interface/environment/reflected_lobes.h); from
 // BROAD_FULL_ROUGHNESS on, what is said here.
-#define BROAD_LEAST_ROUGHNESS 0.7f
-#define BROAD_FULL_ROUGHNESS  0.8f
+#define BROAD_LEAST_ROUGHNESS 0.6f
+#define BROAD_FULL_ROUGHNESS  0.7f
 // Of dielectrics nothing is found in this way, from BROAD_FULL_F0 on all.
 #define BROAD_LEAST_F0 0.05f
 #define BROAD_FULL_F0  0.1f

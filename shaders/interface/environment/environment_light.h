@@ -29,8 +29,11 @@ INTERFACE_OFFSET(environment_constants, pattern, 56)
 #define SPECIALISE_ENVIRONMENT_BLENDED SPECIALISE(28)
 // bool: light that microfacets reflect more than once is compensated for.
 #define SPECIALISE_MULTIPLE_SCATTERING SPECIALISE(27)
-// bool, of the material: prefiltered light of rough microfacets is a lobe and a polynomial.
+// uint, bits of the material: how prefiltered light of its microfacets is found, beside a lobe.
 #define SPECIALISE_BROAD_REFLECTION SPECIALISE(39)
+
+#define REFLECTED_AS_LOBES      1 // as a sum of lobes
+#define REFLECTED_AS_POLYNOMIAL 2 // as a lobe and a polynomial over the hemisphere
 
 #define ENVIRONMENT_EXACT       0
 #define ENVIRONMENT_MIP         1
