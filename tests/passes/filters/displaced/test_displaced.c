@@ -83,9 +83,9 @@ static void white_reliefs_reflect_all_light(void **state) {
 /// Nor does any pixel of it reflect more or less, whether it sees a part of a facet or many.
 static void each_pixel_of_white_reliefs_reflects_all_light(void **state) {
     static const struct {
-        double angle, tiles; ///< of two texels a pixel each
+        double angle, tiles; ///< of four texels a pixel each
         relief_height height;
-    } cases[] = {{45, 0.25, waves}, {60, 0.75, steep}, {75, 1, waves}, {60, 4, steep}};
+    } cases[] = {{45, 0.125, waves}, {60, 0.375, steep}, {75, 0.5, waves}, {60, 2, steep}};
     const lobe_material material = relief_material(1);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         double outgoing[3];
@@ -95,10 +95,10 @@ static void each_pixel_of_white_reliefs_reflects_all_light(void **state) {
         relief_plane_add_sky(scene);
         scene_end(scene);
         const picture_request request = {
-            .filter = "displaced", .width = 16, .height = 16, .samples = 1};
+            .filter = "displaced", .width = 8, .height = 8, .samples = 1};
         lobe_frame frame = draw_scene(*state, scene, &request);
-        for (uint32_t i = 0; i < 16 * 16; i++)
-            check((double)pixel_at(&frame.radiance, i % 16, i / 16)[1], 1, 2e-3, "pixel's furnace",
+        for (uint32_t i = 0; i < 8 * 8; i++)
+            check((double)pixel_at(&frame.radiance, i % 8, i / 8)[1], 1, 2e-3, "pixel's furnace",
                   cases[k].angle);
         lobe_frame_free(&frame);
         lobe_scene_destroy(&scene);
