@@ -94,8 +94,11 @@ static void each_pixel_of_white_reliefs_reflects_all_light(void **state) {
                                          outgoing, cases[k].tiles);
         relief_plane_add_sky(scene);
         scene_end(scene);
-        const picture_request request = {
-            .filter = "displaced", .width = 8, .height = 8, .samples = 1};
+        const picture_request request = {.filter = "displaced",
+                                         .settings = {"env_size=16", NULL},
+                                         .width = 8,
+                                         .height = 8,
+                                         .samples = 1};
         lobe_frame frame = draw_scene(*state, scene, &request);
         for (uint32_t i = 0; i < 8 * 8; i++)
             check((double)pixel_at(&frame.radiance, i % 8, i / 8)[1], 1, 2e-3, "pixel's furnace",
