@@ -12,16 +12,27 @@ enum {
     MOST_BATCHES = 1 << 15,
 };
 
+/// A host that gives vertices on the device may leave the mesh's bounds at 0.
+static bool has_bounds(const lobe_mesh *mesh) {
+    if (!mesh->on_device)
+        return true;
+    bool extends = false;
+    for (int i = 0; i < 3; i++)
+        extends = extends || mesh->minimum[i] < mesh->maximum[i];
+    return extends;
+}
+
 /// Displaced surfaces are drawn one by one, by patches that are culled as such.
-static bool can_cull(const instance_batch *batch) {
-    return batch->displaced.vertices.version == 0;
+static bool can_cull(const device_scene *scene, const instance_batch *batch) {
+    const uint32_t mesh = scene->instances[batch->instance].mesh;
+    return batch->displaced.vertices.version == 0 && has_bounds(&scene->scene->meshes[mesh]);
 }
 
 static bool pays(const device_scene *scene, const draw_list *list) {
     uint64_t triangles = 0, instances = 0;
     for (uint32_t i = 0; i < list->batch_count; i++) {
         const instance_batch *batch = &list->batches[i];
-        if (!can_cull(batch))
+        if (!can_cull(scene, batch))
             continue;
         instances += batch->count;
         triangles += (uint64_t)batch->count * (passes_batch_index_count(scene, batch) / 3);
@@ -128,7 +139,7 @@ static void cull(culling *c, uint32_t first, uint32_t end) {
     const uint32_t first_record = c->constants.first_record;
     uint32_t count = 0;
     for (uint32_t i = first; i < end; i++)
-        if (can_cull(&batches[i]))
+        if (can_cull(c->context->scene, &batches[i]))
             c->culled[count++] = describe(c->context->scene, &batches[i]);
     if (count == 0)
         return;
@@ -136,7 +147,7 @@ static void cull(culling *c, uint32_t first, uint32_t end) {
         add_pass(c, &batches[first], count, batches[end - 1].first + batches[end - 1].count);
     for (uint32_t i = first, record = first_record; i < end; i++) {
         seen_instances *seen = &batches[i].seen[c->view];
-        if (!can_cull(&batches[i]))
+        if (!can_cull(c->context->scene, &batches[i]))
             continue;
         if (c->previous)
             seen->previous_transforms = transforms;

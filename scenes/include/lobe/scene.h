@@ -199,8 +199,8 @@ typedef struct lobe_mesh {
     bool has_colour;
     float minimum[3], maximum[3];  ///< bounds of the positions, as they are drawn
     lobe_deformation *deformation; ///< NULL: it keeps its shape
-    /// The host gives the vertices on the device, in every frame, within the bounds above: see
-    /// lobe_content_giver. `vertices` is then an example, which is not uploaded: coordinates and
+    /// The host gives the vertices on the device, in every frame, within the bounds above (all 0:
+    /// anywhere): see lobe_content_giver. `vertices` is an example, not uploaded: coordinates and
     /// colours of those given must be laid out as there. With `deformation` they are its base.
     bool on_device;
 } lobe_mesh;
