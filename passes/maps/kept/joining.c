@@ -59,9 +59,10 @@ static bool append(joining *joining, const kept_layout *share, const kept_conten
 /// False: the frame has failed.
 static bool load_share(joining *joining, uint64_t key, const kept_layout *share) {
     const filter_context *context = joining->context;
+    const lobe_host silent = {.allocator = lobe_host_allocator(context->host)};
     kept_content content;
-    if (!passes_kept_file_load(context->work->cache, key, share, context->host, &content)) {
-        fail(joining, key, share, "is missing");
+    if (!passes_kept_file_load(context->work->cache, key, share, &silent, &content)) {
+        fail(joining, key, share, "is missing or damaged");
         return false;
     }
     const bool belongs = append(joining, share, &content);

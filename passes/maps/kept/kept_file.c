@@ -63,6 +63,9 @@ static uint64_t layout_digest(const kept_layout *layout) {
                                     image->layers, image->levels};
         digest = passes_digest_bytes(digest, numbers, sizeof numbers);
     }
+    // Shares are as large as each other: a file that was renamed must not pass for another one.
+    if (layout->shares > 0)
+        digest = passes_digest(digest, (uint64_t)layout->share << 32 | layout->shares);
     return digest;
 }
 

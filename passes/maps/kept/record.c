@@ -71,6 +71,15 @@ static bool joins(const fit_work *work) {
     return work->shares > 0 && work->share == 0;
 }
 
+/// They are part of the whole now.
+static void remove_shares(const kept_record *record, uint32_t shares, const char *folder,
+                          const lobe_host *host) {
+    kept_layout layout = record->layout;
+    layout.shares = shares;
+    for (layout.share = 1; layout.share <= layout.shares; layout.share++)
+        passes_kept_file_remove(folder, record->key, &layout, host);
+}
+
 static lobe_result join(const filter_context *context, uint32_t index, const kept_subject *subject,
                         kept_record *record) {
     record->shares = context->work->shares;
@@ -96,6 +105,8 @@ static lobe_result look_up(const filter_context *context, uint32_t index,
     record->settled = result == LOBE_OK;
     if (result != LOBE_OK)
         passes_stored_content_free(&record->stored);
+    else if (subject->share && joins(work)) // an earlier call may not have come to that
+        remove_shares(record, work->shares, work->cache, context->host);
     return result;
 }
 
@@ -186,14 +197,6 @@ bool passes_kept_built(const filter_context *context, const kept_record *record,
     return is_whole;
 }
 
-/// They are part of the whole now.
-static void remove_shares(const kept_record *record, const char *folder, const lobe_host *host) {
-    kept_layout layout = record->layout;
-    layout.shares = record->shares;
-    for (layout.share = 1; layout.share <= layout.shares; layout.share++)
-        passes_kept_file_remove(folder, record->key, &layout, host);
-}
-
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host) {
     kept_record *record = slot;
@@ -217,5 +220,5 @@ void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
         passes_kept_file_save(folder, record->key, &reading->layout, images, buffers, host);
     record->settled = true;
     if (record->saved && record->shares > 0)
-        remove_shares(record, folder, host);
+        remove_shares(record, record->shares, folder, host);
 }

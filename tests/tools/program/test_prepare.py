@@ -71,6 +71,9 @@ def test_parts_become_what_one_process_makes():
     merged = succeeds("prepare", *RELIEF, "--cache", parts, "--merge", "2")
     check("made for 1 material" in merged.stdout, report(merged))
     check(files(parts) == files(whole), "what was put together differs")
+    (parts / f"{name}-2-of-2").write_bytes(b"left by a process that was killed")
+    succeeds("prepare", *RELIEF, "--cache", parts, "--merge", "2")
+    check(files(parts) == files(whole), "a part was left")
     return None
 
 
@@ -86,6 +89,9 @@ def test_missing_and_damaged_parts_are_named():
     again = succeeds("prepare", *RELIEF, "--cache", cache, "--part", "1/2")
     check("will be replaced" in again.stderr, report(again))
     check(files(cache) == {name: part}, "the part was not made again")
+    (cache / name).rename(cache / name.replace("-1-of-2", "-2-of-2"))
+    succeeds("prepare", *RELIEF, "--cache", cache, "--part", "1/2")
+    fails("prepare", *RELIEF, "--cache", cache, "--merge", "2", says="part 2 of 2")
 
 
 def test_progress_is_shown_on_a_terminal():
