@@ -127,6 +127,7 @@ static void a_white_room_leaves_lambert_white(void **state) {
 static void check_metal(fixture *f, float roughness, bool all_filters) {
     lobe_material material = metal(roughness);
     lobe_scene *scene = square_in(white, &material, aslant);
+    hold_scene(f, scene);
     double exact = draw_pixel(f, scene, "direct", methods[EXACT], NULL);
     if (!(exact > 0.3 && exact < 1.02))
         fail_msg("roughness %g: %g of all light", (double)roughness, exact);
@@ -143,6 +144,7 @@ static void check_metal(fixture *f, float roughness, bool all_filters) {
     assert_float_equal(all, 1, 0.02);
     all = draw_pixel(f, scene, "direct", methods[PREFILTERED], "scattering=multiple");
     assert_float_equal(all, 1, 0.02);
+    hold_scene(f, NULL);
     lobe_scene_destroy(&scene);
 }
 
@@ -162,6 +164,7 @@ typedef struct bound {
 
 static void check_methods(fixture *f, const lobe_scene *scene, const char *what,
                           const bound *bounds) {
+    hold_scene(f, scene);
     for (int i = 0; bounds[i].filter; i++) {
         lobe_frame exact = draw_by(f, scene, bounds[i].filter, methods[EXACT], NULL, 4);
         assert_true(all_finite(&exact.radiance) && largest_value(&exact.radiance) > 0);
@@ -175,6 +178,7 @@ static void check_methods(fixture *f, const lobe_scene *scene, const char *what,
         }
         lobe_frame_free(&exact);
     }
+    hold_scene(f, NULL);
 }
 
 static void microfacets_agree_with_the_exact_sum(void **state) {
@@ -323,6 +327,7 @@ static void extreme_lobes_stay_finite(void **state) {
         scene_surround(scene, 16, white);
         scene_look_from(scene, (double[]){1, 0.15, 0}, 0.3);
         scene_end(scene);
+        hold_scene(*state, scene);
         for (int filter = 0; filter < 2; filter++) {
             for (int method = PREFILTERED; method < METHODS; method++) {
                 lobe_frame frame =
@@ -335,6 +340,7 @@ static void extreme_lobes_stay_finite(void **state) {
                 lobe_frame_free(&frame);
             }
         }
+        hold_scene(*state, NULL);
         lobe_scene_destroy(&scene);
     }
 }
@@ -391,11 +397,13 @@ static void occlusion_takes_its_part(void **state) {
     double all = draw_pixel(*state, scene, "lobes", methods[PREFILTERED], NULL);
     scene->materials[0].occlusion_map = scene_add_map(scene, constant_map(4, 4, 0.25f, 1, 1));
     scene->materials[0].occlusion_strength = 0.8f;
+    hold_scene(*state, scene);
     for (size_t i = 0; i < lobe_filter_count(); i++) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
         double part = draw_pixel(*state, scene, filter, methods[PREFILTERED], NULL);
         assert_float_equal(part, 0.4 * all, 0.01 * all);
     }
+    hold_scene(*state, NULL);
     lobe_scene_destroy(&scene);
 }
 

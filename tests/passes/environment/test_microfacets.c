@@ -168,11 +168,14 @@ static void filters_reflect_what_they_should(void **state) {
     lobe_material material = metal(0.6);
     lobe_scene *flat = sphere_in(landscape, &material, 0);
     lobe_scene *rough = sphere_in(landscape, &material, 0.35);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    hold_scene(*state, flat);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_light(*state, flat, "flat", cases[i].filter, "env=prefiltered", cases[i].flat, 0.08);
+    hold_scene(*state, rough);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_light(*state, rough, "rough", cases[i].filter, "env=prefiltered", cases[i].rough,
                     1.3 * cases[i].rough);
-    }
+    hold_scene(*state, NULL);
     lobe_scene_destroy(&flat);
     lobe_scene_destroy(&rough);
 }
@@ -235,12 +238,14 @@ static void white_light_is_reflected_once(void **state) {
         white_albedo(roughnesses[r], expected);
         lobe_material material = metal(roughnesses[r]);
         lobe_scene *scene = sphere_in(white, &material, 0);
+        hold_scene(*state, scene);
         for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
             check_white(*state, scene, "flat", filters[i], "env=prefiltered", expected,
                         prefiltered);
             check_white(*state, scene, "flat", filters[i], "env=sampled", expected, sampled);
         }
         check_white(*state, scene, "flat", "direct", "env=exact", expected, sampled);
+        hold_scene(*state, NULL);
         lobe_scene_destroy(&scene);
     }
 }

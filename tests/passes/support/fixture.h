@@ -18,6 +18,7 @@ typedef struct fixture {
     lobe_device *device;
     lobe_graph *graph;       ///< for tests that declare passes themselves
     lobe_renderer *renderer; ///< for tests that draw pictures
+    const lobe_scene *held;  ///< see hold_scene
     lobe_host host;
     unsigned errors, warnings; ///< lines so far
     char error[1024];          ///< the last error line

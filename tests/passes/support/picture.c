@@ -49,7 +49,16 @@ lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *r
     return frame;
 }
 
+void hold_scene(fixture *f, const lobe_scene *scene) {
+    if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
+        fail_msg("%s: %s", scene->name, f->error);
+    f->held = scene;
+}
+
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request) {
+    if (f->held && f->held == scene)
+        return draw(f, request);
+    f->held = NULL;
     if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
         fail_msg("%s: %s", scene->name, f->error);
     lobe_frame frame = draw(f, request);

@@ -27,8 +27,11 @@ lobe_frame draw(fixture *f, const picture_request *request);
 void assert_silence(const fixture *f, const char *scene, const picture_request *request);
 /// Draws, and asserts silence.
 lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *request);
-/// The same for another scene, which is removed from the renderer afterwards.
+/// The same for another scene, which is removed from the renderer afterwards, unless it is held.
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request);
+/// Keeps an unchanging scene in the renderer, so that several pictures share its maps and its
+/// filtered environment, until another one or none (NULL) is held.
+void hold_scene(fixture *f, const lobe_scene *scene);
 
 /// The channels of a pixel.
 const float *pixel_at(const lobe_image *image, uint32_t x, uint32_t y);
