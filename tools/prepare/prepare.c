@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <lobe/lobe.h>
@@ -48,7 +49,9 @@ typedef struct prepare_state {
 static bool parse_part(prepare_request *request) {
     unsigned part, count;
     char rest;
-    if (sscanf(request->part_text, "%4u/%4u%c", &part, &count, &rest) != 2 || part < 1 ||
+    // sscanf takes blanks and signs before numbers, too.
+    if (request->part_text[strspn(request->part_text, "0123456789/")] != '\0' ||
+        sscanf(request->part_text, "%4u/%4u%c", &part, &count, &rest) != 2 || part < 1 ||
         part > count || count > MOST_PARTS)
         return false;
     request->part = part;

@@ -92,6 +92,7 @@ static void check_furnace(fixture *f, const lobe_material *material, double slop
     char what[96];
     snprintf(what, sizeof what, "metallic %g, roughness %g, slopes of %g, %g degrees",
              (double)material->metallic, (double)material->roughness, slope, degrees);
+    hold_scene(f, scene);
     const double truth = mean_radiance(f, scene, "reference", closed, 36);
     if (!(fabs(truth - 1) <= 0.03))
         fail_msg("%s: reflects %g of the light", what, truth);
@@ -101,6 +102,7 @@ static void check_furnace(fixture *f, const lobe_material *material, double slop
             strcmp(lobe_filter_name(filter), "reference") != 0)
             check_filter(f, scene, lobe_filter_name(filter), truth, 0.03, what);
     }
+    hold_scene(f, NULL);
     lobe_scene_destroy(&scene);
 }
 

@@ -113,7 +113,7 @@ def test_wrong_usage():
     is_wrong_usage("prepare", *MODELS, "--part", "1/2", says=["--part", "wu"])
     is_wrong_usage("prepare", *MODELS, "--merge", "2", says=["--merge", "wu"])
     is_wrong_usage("prepare", *RELIEF, "--part", "1/2", "--merge", "2", says="--merge")
-    for part in ("0/2", "3/2", "1", "1/", "1/2x", "-1/2", "1/5000"):
+    for part in ("0/2", "3/2", "1", "1/", "1/2x", "-1/2", "1/5000", " 1/2", "1/+2"):
         is_wrong_usage("prepare", *RELIEF, f"--part={part}", says=["--part", part])
     is_wrong_usage("prepare", *RELIEF, "--merge", "0", says="--merge")
 
