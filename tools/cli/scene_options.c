@@ -216,6 +216,14 @@ lobe_result scene_options_open(const scene_options *options, const char *scene,
     return status;
 }
 
+int scene_options_check_source(const option_table *table, const char *scene, const char *material) {
+    if (!scene && !material)
+        return options_usage_error(table, "no SCENE, and no --material either");
+    if (scene && material)
+        return options_usage_error(table, "SCENE '%s' and --material exclude each other", scene);
+    return 0;
+}
+
 lobe_result scene_options_open_material(const scene_options *options, const char *folder,
                                         lobe_carrier carrier, const lobe_host *host,
                                         lobe_scene **result) {

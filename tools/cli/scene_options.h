@@ -44,6 +44,10 @@ lobe_result scene_options_light(const scene_options *options, const lobe_host *h
 lobe_result scene_options_open(const scene_options *options, const char *scene,
                                const uint32_t size[2], const lobe_host *host, lobe_scene **result);
 
+/// Checks that either SCENE or --material is given (NULL: it is not). Returns 0, or the exit status
+/// after a message on standard error.
+int scene_options_check_source(const option_table *table, const char *scene, const char *material);
+
 /// Opens a folder of PBR maps on a carrier, and applies the options.
 lobe_result scene_options_open_material(const scene_options *options, const char *folder,
                                         lobe_carrier carrier, const lobe_host *host,

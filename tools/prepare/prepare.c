@@ -60,11 +60,9 @@ static bool parse_part(prepare_request *request) {
 }
 
 static int check_usage(const option_table *table, prepare_request *request) {
-    if (!request->scene && !request->material)
-        return options_usage_error(table, "no SCENE, and no --material either");
-    if (request->scene && request->material)
-        return options_usage_error(table, "SCENE '%s' and --material exclude each other",
-                                   request->scene);
+    const int status = scene_options_check_source(table, request->scene, request->material);
+    if (status != 0)
+        return status;
     if (!request->filter_name)
         return options_usage_error(table, "no --filter");
     if (request->part_text && request->merges)
@@ -197,12 +195,7 @@ static int run(int argc, char **argv) {
                     "fournier",
          .target = &request.filter_name,
          .values = OPTION_VALUES_FILTER},
-        {.name = "set",
-         .kind = OPTION_LIST,
-         .argument = "KNOB=VALUE",
-         .summary = "set a knob of the filter, see 'lobe filters'",
-         .target = &request.assignments,
-         .values = OPTION_VALUES_KNOB},
+        filter_option_set(&request.assignments),
         {.name = "material",
          .kind = OPTION_TEXT,
          .argument = "DIR",

@@ -110,11 +110,9 @@ static int check_budget(const option_table *table, const render_request *request
 }
 
 static int check_usage(const option_table *table, render_request *request) {
-    if (!request->scene && !request->material)
-        return options_usage_error(table, "no SCENE, and no --material either");
-    if (request->scene && request->material)
-        return options_usage_error(table, "SCENE '%s' and --material exclude each other",
-                                   request->scene);
+    int status = scene_options_check_source(table, request->scene, request->material);
+    if (status != 0)
+        return status;
     if (request->has_carrier && !request->material)
         return options_usage_error(table, "--carrier needs --material");
     if (request->size[0] == 0 || request->size[1] == 0)
@@ -125,7 +123,7 @@ static int check_usage(const option_table *table, render_request *request) {
                                    "--frames: '%s' is neither a number of frames from 1 to %d nor "
                                    "a range A..B",
                                    request->frames_text, FRAME_SEQUENCE_MAXIMUM);
-    int status = check_budget(table, request);
+    status = check_budget(table, request);
     if (status == 0)
         status = cache_options_check(table, &request->cache);
     return status == 0 ? check_outputs(table, request) : status;
@@ -495,12 +493,7 @@ static int run(int argc, char **argv) {
          .fallback = "moments",
          .values = OPTION_VALUES_FILTER,
          .given = &request.has_filter},
-        {.name = "set",
-         .kind = OPTION_LIST,
-         .argument = "KNOB=VALUE",
-         .summary = "set a knob of the filter, see 'lobe filters'",
-         .target = &request.assignments,
-         .values = OPTION_VALUES_KNOB},
+        filter_option_set(&request.assignments),
         budget_option_milliseconds(&request.budget),
         budget_option_error(&request.budget),
         budget_option_sweep(&request.budget),

@@ -72,24 +72,21 @@ static kept_layout layout_of_maps(const device_material *material, const transfe
     return layout;
 }
 
+static facet_range range_of_share(const filter_context *context, uint32_t index, uint32_t share) {
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    return passes_facets_share(heights, share, context->work->shares);
+}
+
 /// A share's file has what a range of facets sees.
 static kept_layout layout_of_share(const filter_context *context, uint32_t index, const void *user,
                                    uint32_t share) {
-    const uint32_t shares = context->work->shares;
-    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
-    const facet_range range = passes_facets_share(heights, share, shares);
-    kept_layout layout = {.what = "relief", .share = share, .shares = shares};
+    const facet_range range = range_of_share(context, index, share);
+    kept_layout layout = {.what = "relief", .share = share, .shares = context->work->shares};
     if (range.count == 0)
         return layout;
     layout.buffer_count = 3;
     passes_facets_bytes(range, user, layout.buffer_bytes);
     return layout;
-}
-
-/// The facets that a frame sees to, where it makes a share.
-static facet_range range_of_share(const filter_context *context, uint32_t index) {
-    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
-    return passes_facets_share(heights, context->work->share, context->work->shares);
 }
 
 static bool makes_share(const filter_context *context) {
@@ -100,7 +97,7 @@ static bool makes_share(const filter_context *context) {
 static uint32_t part_count(const filter_context *context, uint32_t index,
                            const transfer_kind *kind) {
     if (makes_share(context))
-        return passes_facets_part_count(range_of_share(context, index), kind);
+        return passes_facets_part_count(range_of_share(context, index, context->work->share), kind);
     return context->work->shares > 0
                ? 1
                : passes_transfer_part_count(&context->scene->materials[index], kind);
@@ -149,7 +146,7 @@ static void build_share(const filter_context *context, uint32_t index, const tra
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
     const relief relief = passes_relief(context, index, in_parts);
-    const facet_range range = range_of_share(context, index);
+    const facet_range range = range_of_share(context, index, context->work->share);
     const facets_request request = {context->graph, index, &relief, kind, in_parts};
     const facet_window window = {.width = relief.constants.width,
                                  .height = relief.constants.height};

@@ -14,12 +14,10 @@ enum {
 
 /// A host that gives vertices on the device may leave the mesh's bounds at 0.
 static bool has_bounds(const lobe_mesh *mesh) {
-    if (!mesh->on_device)
-        return true;
-    bool extends = false;
     for (int i = 0; i < 3; i++)
-        extends = extends || mesh->minimum[i] < mesh->maximum[i];
-    return extends;
+        if (mesh->minimum[i] < mesh->maximum[i])
+            return true;
+    return !mesh->on_device;
 }
 
 /// Displaced surfaces are drawn one by one, by patches that are culled as such.

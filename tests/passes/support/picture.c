@@ -51,18 +51,16 @@ lobe_frame draw_silently(fixture *f, const char *scene, const picture_request *r
 
 void hold_scene(fixture *f, const lobe_scene *scene) {
     if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
-        fail_msg("%s: %s", scene->name, f->error);
+        fail_msg("%s: %s", scene ? scene->name : "no scene", f->error);
     f->held = scene;
 }
 
 lobe_frame draw_scene(fixture *f, const lobe_scene *scene, const picture_request *request) {
-    if (f->held && f->held == scene)
+    if (f->held == scene)
         return draw(f, request);
-    f->held = NULL;
-    if (lobe_renderer_set_scene(f->renderer, scene) != LOBE_OK)
-        fail_msg("%s: %s", scene->name, f->error);
+    hold_scene(f, scene);
     lobe_frame frame = draw(f, request);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    hold_scene(f, NULL);
     return frame;
 }
 
