@@ -368,6 +368,9 @@ reflected_light reflect_light(vec3 incoming) {
     reflected.indirect = reflected.indirect.rrr;
     for (uint channel = 1u; channel < CHANNELS; ++channel)
         reflect_channel(reflected, channel, light);
+    // Where facets are few and steep, the functions overshoot: without a bound by tens of times.
+    reflected.direct = min(reflected.direct, vec3(INVERSE_PI));
+    reflected.indirect = min(reflected.indirect, vec3(INVERSE_PI));
     return reflected;
 }
 

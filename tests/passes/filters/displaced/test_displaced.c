@@ -23,6 +23,11 @@ static double steep(uint32_t column, uint32_t row) {
     return 4 * waves(column, row);
 }
 
+/// Ten times as high as the map is wide.
+static double spires(uint32_t column, uint32_t row) {
+    return 60 * waves(column, row);
+}
+
 static double level(uint32_t column, uint32_t row) {
     (void)column;
     (void)row;
@@ -106,6 +111,25 @@ static void each_pixel_of_white_reliefs_reflects_all_light(void **state) {
         lobe_frame_free(&frame);
         lobe_scene_destroy(&scene);
     }
+}
+
+/// However badly functions of low degree describe a relief: no facet reflects more than all of a
+/// sun's light, nor gets more from others.
+static void no_pixel_of_spires_is_brighter_than_white_facets(void **state) {
+    const double sun[3] = {0.48, 0.64, 0.6};
+    double outgoing[3];
+    slope_plane_direction(70, 0.7, outgoing);
+    const lobe_material material = relief_material(0.9);
+    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, spires), outgoing, 2);
+    relief_plane_add_sun(scene, sun, M_PI);
+    scene_end(scene);
+    const picture_request request = {
+        .filter = "displaced", .width = 16, .height = 16, .samples = 1};
+    lobe_frame frame = draw_scene(*state, scene, &request);
+    for (uint32_t i = 0; i < 16 * 16; i++)
+        check((double)pixel_at(&frame.radiance, i % 16, i / 16)[1], 0.9, 0.9, "spires", 70);
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
 }
 
 /// Light from one side of the sky.
@@ -340,6 +364,7 @@ int main(void) {
         cmocka_unit_test(a_level_map_is_lambertian),
         cmocka_unit_test(white_reliefs_reflect_all_light),
         cmocka_unit_test(each_pixel_of_white_reliefs_reflects_all_light),
+        cmocka_unit_test(no_pixel_of_spires_is_brighter_than_white_facets),
         cmocka_unit_test(environments_are_close_to_the_reference),
         cmocka_unit_test(light_and_viewer_may_change_places),
         cmocka_unit_test(means_are_close_to_the_reference),
