@@ -88,6 +88,7 @@ void passes_cached_cubes_save(cached_cubes *cached, const char *folder, const lo
     // Only read, despite the cast.
     const cube_image cube = {maps->width[map], maps->levels[map],
                              (float *)lobe_graph_data(graph, maps->cubes[map], NULL)};
-    passes_cube_file_save(folder, cached->keys[map], &cube, host);
-    cached->settled[map] = true;
+    const bool saved = passes_cube_file_save(folder, cached->keys[map], &cube, host);
+    for (uint32_t other = 0; other < LOBE_ENVIRONMENT_MAP_COUNT; other++)
+        cached->settled[other] |= other == map || !saved; // all of them would fail alike
 }

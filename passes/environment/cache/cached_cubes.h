@@ -30,8 +30,8 @@ const cube_textures *passes_cached_cubes_find(const cached_cubes *cached,
 bool passes_cached_cubes_lack(const cached_cubes *cached, const environment_maps *maps,
                               uint32_t map);
 
-/// Saves a cube that the last frame of the graph read back. Logs a warning if the folder is not
-/// writable, and does not try again.
+/// Saves a cube that the last frame of the graph read back. If that fails, logs a warning, and
+/// tries to save no other.
 void passes_cached_cubes_save(cached_cubes *cached, const char *folder, const lobe_graph *graph,
                               const environment_maps *maps, uint32_t map, const lobe_host *host);
 

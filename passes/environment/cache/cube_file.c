@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "passes/context/digest.h"
+#include "passes/context/saving_log.h"
 
 /// Increment it whenever the same environment is filtered differently: old files are then no longer
 /// found.
@@ -80,20 +81,20 @@ bool passes_cube_file_load(const char *folder, uint64_t key, uint32_t width, con
 
 static lobe_result save_file(const char *path, uint64_t key, const cube_image *cube,
                              const lobe_host *host) {
-    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     const digest_text texts[] = {passes_digest_print(key), passes_digest_print(checksum_of(cube))};
     const lobe_exr_attribute attributes[] = {
         {.name = key_attribute, .type = LOBE_EXR_TEXT, .text = texts[0].text},
         {.name = checksum_attribute, .type = LOBE_EXR_TEXT, .text = texts[1].text},
     };
-    return passes_cube_image_write(path, cube, attributes, 2, &silent);
+    return passes_cube_image_write(path, cube, attributes, 2, host);
 }
 
-void passes_cube_file_save(const char *folder, uint64_t key, const cube_image *cube,
+bool passes_cube_file_save(const char *folder, uint64_t key, const cube_image *cube,
                            const lobe_host *host) {
+    saving_log log = {host, "filtered environment"};
+    const lobe_host saving = passes_saving_host(&log);
     char *path = path_of(lobe_host_allocator(host), folder, key);
-    if (!path || save_file(path, key, cube, host) != LOBE_OK)
-        lobe_host_log(host, LOBE_LOG_WARNING,
-                      "%s: cannot save the filtered environment in this folder", folder);
+    const bool saved = path && save_file(path, key, cube, &saving) == LOBE_OK;
     lobe_release(path);
+    return saved;
 }

@@ -21,8 +21,8 @@ uint64_t passes_cube_file_key(const lobe_environment *environment, uint32_t size
 bool passes_cube_file_load(const char *folder, uint64_t key, uint32_t width, const lobe_host *host,
                            cube_image *cube);
 
-/// Saves a cube. Logs a warning if the folder is not writable.
-void passes_cube_file_save(const char *folder, uint64_t key, const cube_image *cube,
+/// Saves a cube. False, with a warning, if that fails.
+bool passes_cube_file_save(const char *folder, uint64_t key, const cube_image *cube,
                            const lobe_host *host);
 
 #endif

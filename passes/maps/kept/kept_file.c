@@ -7,6 +7,7 @@
 #include <lobe/file.h>
 
 #include "passes/context/digest.h"
+#include "passes/context/saving_log.h"
 #include "passes/maps/level_reduction.h"
 
 /// All members are compared with what a file must have; then come the buffers and the images' rows.
@@ -145,11 +146,10 @@ void passes_kept_content_free(kept_content *content) {
 static lobe_result save_file(const char *path, uint64_t key, const kept_layout *layout,
                              const void *const *images, const void *const *buffers,
                              const lobe_host *host) {
-    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
     const size_t size = sizeof(file_header) + content_bytes(layout);
-    uint8_t *file = lobe_allocate(silent.allocator, size, 1);
+    uint8_t *file = lobe_allocate(lobe_host_allocator(host), size, 1);
     if (!file)
-        return LOBE_ERROR_OUT_OF_MEMORY;
+        return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);
     uint8_t *content = file + sizeof(file_header), *next = content;
     for (uint32_t i = 0; i < layout->buffer_count; i++) {
         memcpy(next, buffers[i], layout->buffer_bytes[i]);
@@ -161,7 +161,7 @@ static lobe_result save_file(const char *path, uint64_t key, const kept_layout *
     }
     const file_header header = header_of(key, layout, content);
     memcpy(file, &header, sizeof header);
-    const lobe_result result = lobe_file_write(path, file, size, &silent);
+    const lobe_result result = lobe_file_write(path, file, size, host);
     lobe_release(file);
     return result;
 }
@@ -169,11 +169,10 @@ static lobe_result save_file(const char *path, uint64_t key, const kept_layout *
 bool passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *layout,
                            const void *const *images, const void *const *buffers,
                            const lobe_host *host) {
+    saving_log log = {host, layout->what};
+    const lobe_host saving = passes_saving_host(&log);
     char *path = passes_kept_file_path(folder, key, layout, host);
-    const bool saved = path && save_file(path, key, layout, images, buffers, host) == LOBE_OK;
-    if (!saved)
-        lobe_host_log(host, LOBE_LOG_WARNING, "%s: cannot save the %s in this folder", folder,
-                      layout->what);
+    const bool saved = path && save_file(path, key, layout, images, buffers, &saving) == LOBE_OK;
     lobe_release(path);
     return saved;
 }

@@ -248,7 +248,7 @@ static void an_unwritable_folder_is_warned_of(void **state) {
     log_recorder recorder;
     log_recorder_start(&recorder);
     assert_false(passes_cube_file_load(folder, 7, 4, &recorder.host, &found));
-    passes_cube_file_save(folder, 7, &cube, &recorder.host);
+    assert_false(passes_cube_file_save(folder, 7, &cube, &recorder.host));
     assert_int_equal(recorder.warnings, 1);
     assert_int_equal(recorder.errors, 0);
     passes_cube_image_free(&cube);
