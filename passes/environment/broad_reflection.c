@@ -5,6 +5,7 @@
 
 #include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
+#include "shaders/interface/environment/reflected_rings.h"
 #include "shaders/interface/specialisation.h"
 
 const lobe_sampler passes_broad_reflection_sampler = {
@@ -164,10 +165,10 @@ lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distr
         {SPECIALISE_MASKING, (uint32_t)masking},
         {SPECIALISE_ENVIRONMENT_PROBES, probes},
     };
-    lobe_pass_dispatch(
-        pass, &(lobe_dispatch){.shader = "environment/broad_reflection.comp",
-                               .threads = {48 * BROAD_REFLECTION_SIZE, BROAD_REFLECTION_SIZE},
-                               .specialisation = specialisation,
-                               .specialisation_count = 3});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "environment/broad_reflection.comp",
+                                              .threads = {REFLECTED_RINGS * BROAD_REFLECTION_SIZE,
+                                                          BROAD_REFLECTION_SIZE},
+                                              .specialisation = specialisation,
+                                              .specialisation_count = 3});
     return table;
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "shaders/interface/environment/reflected_lobes.h"
+#include "shaders/interface/environment/reflected_rings.h"
 #include "shaders/interface/specialisation.h"
 
 const lobe_sampler passes_reflected_lobes_sampler = {
@@ -27,10 +28,10 @@ lobe_resource passes_reflected_lobes(lobe_graph *graph, lobe_distribution distri
         {SPECIALISE_DISTRIBUTION, (uint32_t)distribution},
         {SPECIALISE_MASKING, (uint32_t)masking},
     };
-    lobe_pass_dispatch(
-        pass, &(lobe_dispatch){.shader = "environment/reflected_lobes.comp",
-                               .threads = {48 * REFLECTED_LOBES_SIZE, REFLECTED_LOBES_SIZE},
-                               .specialisation = specialisation,
-                               .specialisation_count = 2});
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "environment/reflected_lobes.comp",
+                                              .threads = {REFLECTED_RINGS * REFLECTED_LOBES_SIZE,
+                                                          REFLECTED_LOBES_SIZE},
+                                              .specialisation = specialisation,
+                                              .specialisation_count = 2});
     return table;
 }

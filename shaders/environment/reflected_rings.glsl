@@ -4,13 +4,14 @@
 // Quadrature over what microfacets reflect towards a viewer: rings of half vectors about the
 // normal.
 
+#include "interface/environment/reflected_rings.h"
 #include "lib/lobe/base_lobe.glsl"
 #include "lib/microfacet/microfacet.glsl"
 
 layout(constant_id = SPECIALISE_DISTRIBUTION) const uint DISTRIBUTION = DISTRIBUTION_GGX;
 layout(constant_id = SPECIALISE_MASKING) const uint MASKING = DISTRIBUTION_GGX;
 
-const int RINGS = 48, AZIMUTHS = 8;
+const int RINGS = REFLECTED_RINGS, AZIMUTHS = 8;
 
 // The midpoint rule on [0, 1] with points concentrated at both ends, where the integrand may bend:
 //   s = t^3 (10 - 15 t + 6 t^2)

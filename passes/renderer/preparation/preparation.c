@@ -10,7 +10,7 @@ struct lobe_preparation {
     lobe_preparation_parameters parameters;
     lobe_host host;
     lobe_renderer *renderer;        ///< of the thread, until that ends
-    lobe_render_parameters *frames; ///< a copy
+    lobe_render_parameters *frames; ///< owned: those of `parameters`
     pthread_t thread;
     atomic_bool stopped; ///< by destruction
     atomic_bool done;    ///< `result` is set
@@ -23,7 +23,7 @@ static lobe_result run(lobe_preparation *self) {
     lobe_result result = lobe_renderer_set_scene(self->renderer, wanted->scene);
     for (size_t i = 0; result == LOBE_OK && i < wanted->frame_count && !atomic_load(&self->stopped);
          i++)
-        result = passes_renderer_prepare(self->renderer, &self->frames[i], &self->stopped);
+        result = passes_renderer_prepare(self->renderer, &wanted->frames[i], &self->stopped);
     return result;
 }
 
@@ -62,6 +62,7 @@ static lobe_result begin(lobe_preparation **preparation, lobe_device *device) {
     if (!self->frames)
         return lobe_host_fail(&self->host, LOBE_ERROR_OUT_OF_MEMORY, "preparation: out of memory");
     memcpy(self->frames, wanted->frames, wanted->frame_count * sizeof *self->frames);
+    self->parameters.frames = self->frames;
     const lobe_result result = lobe_renderer_create(device, &self->host, &self->renderer);
     if (result != LOBE_OK)
         return result;
