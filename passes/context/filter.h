@@ -69,6 +69,8 @@ struct lobe_filter {
     bool fetches_for_lights; ///< the shader fetches maps for each four lights
     /// The shader reads the lobes' map texel by texel, in loops for each four lights.
     bool fetches_texels;
+    /// The shader reads the environment's moments over hemispheres for materials with heights.
+    bool gathers_moments;
     filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material and the current values of the knobs that decide slots;

@@ -124,16 +124,25 @@ static void build_reflection_tables(const filter_context *context, environment_l
             (uint32_t)passes_knob_value(context, &passes_knob_environment_probes));
 }
 
-/// `source`: what the irradiance comes from.
+/// Whether a material's shader reads the moments of the environment, by what it finds with
+/// REFLECTED_AS_... `ways`.
+static bool gathers_moments(const filter_context *context, const device_material *material,
+                            uint32_t ways) {
+    return (ways & REFLECTED_AS_POLYNOMIAL) ||
+           (context->filter->gathers_moments && material->maps[MAP_HEIGHT].use);
+}
+
+/// The moments and the tables that materials need. `source`: what the irradiance comes from.
 static void build_broad_reflection(const filter_context *context, environment_light *light,
                                    irradiance_source source) {
     const device_scene *scene = context->scene;
     for (size_t i = 0; i < scene->scene->material_count; i++) {
         const device_material *material = &scene->materials[i];
         const lobe_distribution distribution = material->material->distribution;
-        const uint32_t ways =
-            material->first_instance ? broad_reflection_of(context, light, material) : 0;
-        if ((ways & REFLECTED_AS_POLYNOMIAL) && !light->moments.version)
+        if (!material->first_instance)
+            continue;
+        const uint32_t ways = broad_reflection_of(context, light, material);
+        if (gathers_moments(context, material, ways) && !light->moments.version)
             light->moments = passes_hemisphere_moments(context->graph, source);
         build_reflection_tables(context, light, ways, distribution, distribution);
         if (context->filter->slopes && (material->map_bits & (1u << MAP_NORMAL | 1u << MAP_WIDTH)))
@@ -368,11 +377,10 @@ void passes_environment_light_specialise(const environment_light *light,
                       broad_reflection_of(context, light, material));
 }
 
-/// A table that this material uses, or else white.
+/// A table, or white if there is none.
 static lobe_binding bind_table(const char *name, lobe_resource table, lobe_sampler sampler,
-                               const filter_context *context, const lobe_material *material) {
-    bool used = material->model == LOBE_MATERIAL_MICROFACET && table.version;
-    if (!used)
+                               const filter_context *context) {
+    if (!table.version)
         table = lobe_graph_import_texture(context->graph, context->scene->white);
     return (lobe_binding){.name = name, .resource = table, .sampler = sampler};
 }
@@ -386,27 +394,27 @@ passes_environment_light_bind_material(const environment_light *light,
     const bool slopes = context->filter->slopes;
     size_t count = 0;
     bindings[count++] = bind_table("directional_albedo_table", light->albedo[own][own],
-                                   passes_directional_albedo_sampler, context, material);
+                                   passes_directional_albedo_sampler, context);
     if (slopes)
         bindings[count++] =
             bind_table("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
-                       passes_directional_albedo_sampler, context, material);
+                       passes_directional_albedo_sampler, context);
     // Shaders for scenes without an environment have no such tables.
     if (!light->present)
         return count;
     bindings[count++] = bind_table("broad_reflection_table", light->broad[own][own],
-                                   passes_broad_reflection_sampler, context, material);
+                                   passes_broad_reflection_sampler, context);
     bindings[count++] = bind_table("reflected_lobes_table", light->lobes[own][own],
-                                   passes_reflected_lobes_sampler, context, material);
+                                   passes_reflected_lobes_sampler, context);
     bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
-                                   passes_hemisphere_moments_sampler, context, material);
+                                   passes_hemisphere_moments_sampler, context);
     if (!slopes)
         return count;
     bindings[count++] = bind_table("slope_broad_reflection_table",
                                    light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
-                                   passes_broad_reflection_sampler, context, material);
+                                   passes_broad_reflection_sampler, context);
     bindings[count++] =
         bind_table("slope_reflected_lobes_table", light->lobes[LOBE_DISTRIBUTION_BECKMANN][masking],
-                   passes_reflected_lobes_sampler, context, material);
+                   passes_reflected_lobes_sampler, context);
     return count;
 }

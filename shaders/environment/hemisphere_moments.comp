@@ -19,7 +19,7 @@ layout(push_constant) uniform constants_block { hemisphere_moments_constants con
 
 // Texels of the cube that the group adds next.
 shared vec4 directions[GROUP];
-shared vec4 powers[GROUP]; // radiance times solid angle
+shared vec4 powers[GROUP]; // radiance times solid angle, solid angle
 
 void load_texel(int index, int size) {
     int own = int(gl_LocalInvocationID.x), face = index / (size * size);
@@ -27,7 +27,7 @@ void load_texel(int index, int size) {
     bool exists = face < 6;
     directions[own] = exists ? vec4(cube_texel_direction(face, texel, size), 0.0) : vec4(0.0);
     powers[own] = exists ? cube_texel_solid_angle(texel, size) *
-                               texelFetch(environment, ivec3(texel, face), 0)
+                               vec4(texelFetch(environment, ivec3(texel, face), 0).rgb, 1.0)
                          : vec4(0.0);
 }
 
@@ -37,25 +37,31 @@ void main() {
     ivec2 place = ivec2(index % width, index / width);
     vec3 normal = octahedron_texel_direction(place, HEMISPHERE_MOMENTS_SIZE);
     int size = int(constants.size);
-    mat4 sums[3] = mat4[3](mat4(0.0), mat4(0.0), mat4(0.0));
+    mat4 sums[4] = mat4[4](mat4(0.0), mat4(0.0), mat4(0.0), mat4(0.0)); // of uniform light, too
+    vec4 mean = vec4(0.0);
     for (int first = 0; first < 6 * size * size; first += GROUP) {
         barrier();
         load_texel(first + int(gl_LocalInvocationID.x), size);
         barrier();
         for (int i = 0; i < GROUP; ++i) {
             vec3 d = directions[i].xyz;
-            vec3 light = max(dot(normal, d), 0.0) * powers[i].rgb;
+            vec4 light = max(dot(normal, d), 0.0) * powers[i];
+            mean += powers[i];
             float xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z, xy = d.x * d.y;
             mat4 monomials = mat4(vec4(xx * d.x, xx * d.y, xx * d.z, d.x * yy),
                                   vec4(xy * d.z, d.x * zz, d.y * yy, yy * d.z),
                                   vec4(d.y * zz, d.z * zz, xx, xy),
                                   vec4(d.x * d.z, yy, d.y * d.z, zz));
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 4; ++c)
                 sums[c] += light[c] * monomials;
         }
     }
     if (place.y >= width)
         return;
-    for (int layer = 0; layer < HEMISPHERE_MOMENT_LAYERS; ++layer)
-        imageStore(moments, ivec3(place, layer), sums[layer / 4][layer % 4]);
+    mean /= mean.w;
+    const int last = HEMISPHERE_MOMENT_LAYERS - 1;
+    for (int layer = 0; layer < last; ++layer)
+        imageStore(moments, ivec3(place, layer),
+                   sums[layer / 4][layer % 4] - mean[layer / 4] * sums[3][layer % 4]);
+    imageStore(moments, ivec3(place, last), mean);
 }

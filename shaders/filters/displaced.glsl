@@ -14,10 +14,10 @@
 #include "shading/averaged_maps.glsl"
 #include "interface/displacement/relief.h"
 #include "lib/displacement/transfer_basis.glsl"
+#include "lib/displacement/transfer_light.glsl"
 #include "lib/displacement/facet_bins.glsl"
 #include "filters/displaced/relief_surface.glsl"
 #include "filters/displaced/seen_relief.glsl"
-#include "lib/light/cube_texel.glsl"
 
 const bool BIN_COLOUR = false;
 const bool BIN_WIDTHS = false;
@@ -528,39 +528,17 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-// The environment's coefficients, of each channel: sums over the texels of a coarse level. What
-// these sums are off for light that is the same everywhere is added with the mean radiance.
-const int LIGHT_WIDTH = 8;
-
+// The environment's integrals with the polynomials, of each channel.
 void light_of_environment(surface_point surface, out float light[3][16]) {
     mat3 tangent_from_environment = tangent_from_environment_of(surface);
-    int level = level_of_faces(LIGHT_WIDTH);
-    int size = textureSize(environment_faces, level).x;
-    float sums[16];
-    for (int k = 0; k < 16; ++k)
-        light[0][k] = light[1][k] = light[2][k] = sums[k] = 0.0;
-    vec4 mean = vec4(0.0); // radiance times cosine, cosine
-    for (int i = 0; i < 6 * size * size; ++i) {
-        int face = i / (size * size);
-        ivec2 texel = ivec2(i % size, (i / size) % size);
-        float polynomials[16];
-        transfer_polynomials(tangent_from_environment * cube_texel_direction(face, texel, size),
-                             polynomials);
-        float solid_angle = cube_texel_solid_angle(texel, size);
-        vec3 irradiance = texelFetch(environment_faces, ivec3(texel, face), level).rgb *
-                          (environment.intensity * solid_angle);
-        mean += vec4(irradiance, solid_angle) * polynomials[0];
-        for (int k = 0; k < 16; ++k) {
-            sums[k] += solid_angle * polynomials[k];
-            light[0][k] += irradiance.r * polynomials[k];
-            light[1][k] += irradiance.g * polynomials[k];
-            light[2][k] += irradiance.b * polynomials[k];
-        }
-    }
-    mean /= max(mean.w, 1e-6);
+    hemisphere_moments moments = hemisphere_moments_about(
+        hemisphere_moments_map, transpose(tangent_from_environment)[2]);
+    transfer_polynomials_of_light(moments.red, tangent_from_environment, light[0]);
+    transfer_polynomials_of_light(moments.green, tangent_from_environment, light[1]);
+    transfer_polynomials_of_light(moments.blue, tangent_from_environment, light[2]);
     for (int channel = 0; channel < 3; ++channel)
         for (int k = 0; k < 16; ++k)
-            light[channel][k] += mean[channel] * (TRANSFER_INTEGRAL[k] - sums[k]);
+            light[channel][k] *= environment.intensity;
 }
 
 // Each bin by the area of it that faces the viewer, masked, and shadowed in the direction that its

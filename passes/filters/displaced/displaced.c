@@ -188,6 +188,7 @@ const lobe_filter passes_filter_displaced = {
     .shading = "displaced",
     .knobs = knobs,
     .reads_heights = true,
+    .gathers_moments = true,
     .prepare = prepare,
     .adapts_to_texels = true,
     .save = passes_kept_save,

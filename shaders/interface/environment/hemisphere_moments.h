@@ -10,9 +10,11 @@
 //
 // In this order:
 //   xxx xxy xxz xyy  xyz xzz yyy yyz  yzz zzz xx xy  xz yy yz zz
-// Layer 4 c + l holds the l-th group of four of colour c.
+// Layer 4 c + l holds the l-th group of four of colour c, for L less its mean over all directions.
+// The last layer holds that mean, whose moments have closed forms: uniform light is exact, however
+// coarse the map.
 #define HEMISPHERE_MOMENTS       16
-#define HEMISPHERE_MOMENT_LAYERS 12
+#define HEMISPHERE_MOMENT_LAYERS 13
 
 // Texels along the map of normals (lib/light/octahedron.glsl), without the border of one texel
 // around it: 32 leave linear interpolation an error of 2e-3 of the irradiance of a single light.

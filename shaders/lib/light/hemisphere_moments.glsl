@@ -2,6 +2,7 @@
 #define LIB_HEMISPHERE_MOMENTS_GLSL
 
 #include "interface/environment/hemisphere_moments.h"
+#include "lib/number/constants.glsl"
 #include "lib/light/octahedron.glsl"
 
 // Integrals of an environment's light with polynomials of the direction over the hemisphere of a
@@ -21,12 +22,26 @@ mat4 moments_of_colour(sampler2DArray map, vec2 coordinates, float first) {
                 textureLod(map, vec3(coordinates, first + 3.0), 0.0));
 }
 
+// Of radiance 1 from everywhere:
+//   2 pi/15 (delta_ij n_k + delta_jk n_i + delta_ki n_j),  pi/4 (delta_ij + n_i n_j)
+mat4 moments_of_uniform_light(vec3 normal) {
+    vec3 cubic = 2.0 * PI / 15.0 * normal, n = normal;
+    vec4 first = vec4(3.0 * cubic.x, cubic.y, cubic.z, cubic.x);
+    vec4 second = vec4(0.0, cubic.x, 3.0 * cubic.y, cubic.z);
+    float quarter = 0.25 * PI;
+    return mat4(first, second, cubic.y, 3.0 * cubic.z, quarter * (1.0 + n.x * n.x),
+                quarter * n.x * n.y, quarter * n.x * n.z, quarter * (1.0 + n.y * n.y),
+                quarter * n.y * n.z, quarter * (1.0 + n.z * n.z));
+}
+
 // The sampler is linear and clamped. `normal`: unit.
 hemisphere_moments hemisphere_moments_about(sampler2DArray map, vec3 normal) {
     vec2 coordinates = octahedron_coordinates(normal, float(HEMISPHERE_MOMENTS_SIZE));
-    return hemisphere_moments(moments_of_colour(map, coordinates, 0.0),
-                              moments_of_colour(map, coordinates, 4.0),
-                              moments_of_colour(map, coordinates, 8.0));
+    vec3 mean = textureLod(map, vec3(coordinates, float(HEMISPHERE_MOMENT_LAYERS - 1)), 0.0).rgb;
+    mat4 uniform_light = moments_of_uniform_light(normal);
+    return hemisphere_moments(moments_of_colour(map, coordinates, 0.0) + mean.r * uniform_light,
+                              moments_of_colour(map, coordinates, 4.0) + mean.g * uniform_light,
+                              moments_of_colour(map, coordinates, 8.0) + mean.b * uniform_light);
 }
 
 // The coefficients of <a, w> (w^T A w), for a symmetric A, in the moments' order.

@@ -1,4 +1,5 @@
-// shaders/lib/displacement/transfer_basis.glsl: orthonormal, and integrated as by quadrature.
+// shaders/lib/displacement/transfer_basis.glsl: orthonormal, and integrated as by quadrature;
+// transfer_light.glsl: the same from moments of light.
 
 #include <math.h>
 #include <string.h>
@@ -100,11 +101,33 @@ static void azimuths_are_integrated(void **state) {
     report_worst_error("azimuths");
 }
 
+/// In random frames, mirrored ones among them.
+static void moments_of_light_give_its_polynomials(void **state) {
+    static double expected[COUNT][FUNCTIONS];
+    uint64_t random = 11;
+    for (size_t i = 0; i < COUNT; i++) {
+        random_direction(&random, arguments[i].a);
+        random_direction(&random, arguments[i].b);
+        random_direction(&random, arguments[i].c);
+        arguments[i].c[3] = i % 2 ? 1 : -1;
+    }
+    evaluate(state, 12, COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int k = 0; k < FUNCTIONS; k++)
+            expected[i][k] = value(i, k);
+    evaluate(state, 8, COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int k = 0; k < FUNCTIONS; k++)
+            check_close("light", &arguments[i], value(i, k), expected[i][k], 2e-5);
+    report_worst_error("light");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polynomials_are_orthonormal),
         cmocka_unit_test(below_the_horizon_they_are_nothing),
         cmocka_unit_test(azimuths_are_integrated),
+        cmocka_unit_test(moments_of_light_give_its_polynomials),
     };
     return cmocka_run_group_tests_name("transfer_basis", tests, harness_set_up, harness_tear_down);
 }
