@@ -63,13 +63,14 @@ static lobe_resource declare_components(const mixture_build *build, uint32_t wid
                                           });
 }
 
-/// In place of components that nobody needs.
-static lobe_resource declare_no_components(const mixture_build *build) {
+/// Of texels, which the frame's next pass needs, or nobody.
+static lobe_resource declare_passing_components(const mixture_build *build, uint32_t width,
+                                                uint32_t height) {
     return lobe_graph_image(build->graph, &(lobe_image_description){
-                                              .name = "no components",
+                                              .name = "passing components",
                                               .format = LOBE_FORMAT_RGBA32_FLOAT,
-                                              .width = 1,
-                                              .height = 1,
+                                              .width = width,
+                                              .height = height,
                                               .layers = 2 * build->kind->components,
                                           });
 }
@@ -143,13 +144,34 @@ static void add_root(mixture_build *build) {
     keep(build, pass);
 }
 
-/// From the components of the level before to those of a level with few texels.
-static void add_fit(mixture_build *build, uint32_t level, uint32_t width, uint32_t height) {
+/// Components that a search finds for a texel are less like its neighbours' than its parent's are:
+/// only at the level whose texels are quarters of the map.
+static bool is_searched(const mixture_kind *kind, uint32_t width, uint32_t height) {
+    return kind->start == MIXTURE_START_PARENT && !kind->is_printed &&
+           (width > height ? width : height) == 2;
+}
+
+static lobe_pass *add_group_pass(mixture_build *build, const char *name, const char *shader,
+                                 lobe_resource components, uint32_t width, uint32_t height) {
     enum { THREADS = 64 };
-    lobe_pass *pass = add_pass(build, "mixture_fit");
+    lobe_pass *pass = add_pass(build, name);
     read_parents(build, pass);
-    build->components = write_components(pass, declare_components(build, width, height, level));
-    dispatch(build, "filters/mixture/fit.comp", THREADS * width, height, build->kind->steps, pass);
+    build->components = write_components(pass, components);
+    dispatch(build, shader, THREADS * width, height, build->kind->steps, pass);
+    return pass;
+}
+
+/// From the components of the level before to those of a level with few texels, by a group for each
+/// texel.
+static void add_fit(mixture_build *build, uint32_t level, uint32_t width, uint32_t height) {
+    const bool searched = is_searched(build->kind, width, height);
+    lobe_pass *pass = add_group_pass(build, "mixture_fit", "filters/mixture/fit.comp",
+                                     searched ? declare_passing_components(build, width, height)
+                                              : declare_components(build, width, height, level),
+                                     width, height);
+    if (searched)
+        pass = add_group_pass(build, "mixture_search", "filters/mixture/search.comp",
+                              declare_components(build, width, height, level), width, height);
     keep(build, pass);
 }
 
@@ -174,7 +196,7 @@ static lobe_resource add_sums_of_parts(const mixture_build *build, uint32_t colu
                                        uint32_t rows) {
     lobe_pass *pass = add_pass(build, "mixture_level");
     read_parents(build, pass);
-    (void)write_components(pass, declare_no_components(build));
+    (void)write_components(pass, declare_passing_components(build, 1, 1));
     const lobe_resource sums = lobe_pass_write(
         pass, &(lobe_binding){.name = "moment_map",
                               .resource = declare_sums_of_parts(build, columns, rows)});

@@ -22,9 +22,9 @@ kept_image passes_mixture_extent(const device_material *material, const mixture_
 
 /// Adds the passes that fit a mixture of Gaussians to the lobes under each texel of each level,
 /// from the coarsest level to the finest: mixture_samples, mixture_root, mixture_fit for levels of
-/// large texels, mixture_level, mixture_gather. The material has a normal or a width map. They run
-/// when these change, and take far longer than moment_binning. Result: a map as of moments, with a
-/// bin for each component.
+/// large texels, mixture_search for quarters of the map, mixture_level, mixture_gather. The
+/// material has a normal or a width map. They run when these change, and take far longer than
+/// moment_binning. Result: a map as of moments, with a bin for each component.
 ///
 /// Tan et al. 2005, Multiresolution Reflectance Filtering; differs from it in the start, see
 /// docs/mixtures.md.

@@ -6,24 +6,10 @@
 
 #include "filters/mixture/group_fit.glsl"
 #include "filters/mixture/parents.glsl"
-#include "filters/mixture/unused_components.glsl"
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray component_map;
 
 const uint CELLS = 128; // along each side
-
-void share_components_of_group(mixture_units units) {
-    barrier();
-    if (thread() == 0) {
-        mixture_component all[MIXTURE_MAXIMUM_COMPONENTS];
-        for (int j = 0; j < BINS; ++j)
-            all[j] = components[j];
-        share_unused_components(all, units);
-        for (int j = 0; j < BINS; ++j)
-            components[j] = all[j];
-    }
-    barrier();
-}
 
 void main() {
     uvec2 texel = gl_WorkGroupID.xy, size = uvec2(imageSize(component_map).xy);
@@ -39,11 +25,8 @@ void main() {
             add_component(area, j, K_MEANS, units);
         rounds = ROUNDS_OF_K_MEANS;
     }
-    for (uint step = 0; step < rounds + constants.steps; ++step) {
+    for (uint step = 0; step < rounds + constants.steps; ++step)
         take_step(area, step < rounds, units);
-        if (step == 0 && shares_unused_components(size))
-            share_components_of_group(units);
-    }
     if (thread() < BINS) {
         int j = int(thread());
         imageStore(component_map, ivec3(texel, 2 * j),

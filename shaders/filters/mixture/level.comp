@@ -7,7 +7,6 @@
 // steps, the sums for given components.
 
 #include "filters/mixture/parents.glsl"
-#include "filters/mixture/unused_components.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -216,8 +215,6 @@ void main() {
         if (step == rounds + constants.steps)
             break;
         improve(box, sums, step < rounds, units, components);
-        if (step == 0 && shares_unused_components(size))
-            share_unused_components(components, units);
     }
     if (imageSize(component_map).xy == ivec2(size))
         keep_components(box, sums, units, components);

@@ -364,10 +364,11 @@ static void neighbours_blend(void **state) {
     assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
-/// Where relief, sharpness and colour change over the map, at equal bytes. Of the grooved sheets
-/// that is so only because components without use in a quarter of the map share others there.
+/// Where relief, sharpness and colour change over the map, at equal bytes. Of the two bumps, each
+/// in half of the map, that is so only because quarters of the map search for components of their
+/// own.
 static void materials_that_change_are_fitted_better(void **state) {
-    static const int materials[] = {7, 14};
+    static const int materials[] = {1, 7};
     double sums[2] = {0};
     for (int i = 0; i < 2; i++) {
         lobe_image colours;
@@ -379,7 +380,7 @@ static void materials_that_change_are_fitted_better(void **state) {
                       moments.centre, moments.corner);
         sums[0] += mixture.centre + mixture.corner;
         sums[1] += moments.centre + moments.corner;
-        assert_true(mixture.centre + mixture.corner <= 0.75 * (moments.centre + moments.corner));
+        assert_true(mixture.centre + mixture.corner <= 0.6 * (moments.centre + moments.corner));
         lobe_image_free(&map.lobes);
         lobe_image_free(&colours);
     }

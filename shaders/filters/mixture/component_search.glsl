@@ -1,0 +1,173 @@
+#ifndef COMPONENT_SEARCH_GLSL
+#define COMPONENT_SEARCH_GLSL
+
+// Search by a group for the components that are closest to the lobes of a rectangle of texels: from
+// components far apart, from k-means, and from more components of which some are merged.
+
+#define COMPONENTS 7 // MIXTURE_MAXIMUM_COMPONENTS
+#include "filters/mixture/group_fit.glsl"
+#include "lib/lobe/plane_gaussian.glsl"
+
+const uint ROUNDS = 25;
+const uint MERGED = 2; // the third start
+const uint STARTS = 3;
+const float LEAST_GAIN = 0.02; // of the squared lobes, that it must be better than the others
+
+shared mixture_component kept[BINS];
+
+void keep_components() {
+    if (thread() < BINS)
+        kept[thread()] = components[thread()];
+    barrier();
+}
+
+// ---------------------------------------------------------------------------------------------
+// How close components are to the lobes
+
+// The variance of base lobes of a width.
+vec3 base_covariance(float width, mixture_units units) {
+    float deviation = units.deviation * exp(width / units.deviation);
+    return vec3(vec2(deviation * deviation), 0.0);
+}
+
+// The integral of a component with base lobes, times the sample's lobe, for all components.
+float overlap_with_sample(mixture_sample lobe, mixture_units units) {
+    float sum = 0.0;
+    for (int j = 0; j < COMPONENTS; ++j)
+        sum += components[j].part *
+               evaluate_plane_gaussian(
+                   make_plane_gaussian(components[j].covariance.xyz + lobe.covariance +
+                                           base_covariance(components[j].mean.z, units) +
+                                           base_covariance(lobe.place.z, units),
+                                       1.0),
+                   lobe.place.xy - components[j].mean.xy);
+    return sum;
+}
+
+// The squared difference between all components and all lobes, integrated over the plane, without
+// what does not depend on the components. (Likelihoods do not tell which of two fits a picture is
+// better with.)
+float squared_error(sampled_area area, mixture_units units) {
+    float overlap = 0.0, mass = 0.0;
+    for (uint i = thread(); i < sample_count(area); i += THREADS) {
+        mixture_sample lobe = area_sample(area, i, units);
+        overlap += lobe.mass * overlap_with_sample(lobe, units);
+        mass += lobe.mass;
+    }
+    own_numbers[0][thread()] = overlap;
+    own_numbers[1][thread()] = mass;
+    merge_sums(2);
+    float error = -2.0 * numbers[0] / numbers[1];
+    for (int j = 0; j < COMPONENTS; ++j) {
+        mixture_sample as_sample =
+            mixture_sample(components[j].mean, components[j].covariance.xyz, vec2(0.0), 1.0);
+        error += components[j].part * overlap_with_sample(as_sample, units);
+    }
+    barrier();
+    return error;
+}
+
+// ---------------------------------------------------------------------------------------------
+// All fits
+
+// So far away that they get nothing.
+void set_aside(uint first) {
+    barrier();
+    if (thread() >= first && thread() < COMPONENTS)
+        components[thread()] =
+            mixture_component(0.0, vec3(1e6, 1e6, 0.0), vec4(1.0, 1.0, 0.0, 1.0));
+    barrier();
+}
+
+mixture_component merged(mixture_component a, mixture_component b) {
+    mixture_component sum;
+    sum.part = a.part + b.part;
+    float share = b.part / max(sum.part, 1e-30);
+    vec3 d = b.mean - a.mean;
+    sum.mean = a.mean + share * d;
+    sum.covariance = mix(a.covariance, b.covariance, share) +
+                     share * (1.0 - share) * vec4(d.xy * d.xy, d.x * d.y, d.z * d.z);
+    return sum;
+}
+
+// The logarithm of the volume of a component with the usual base lobe.
+float log_volume(mixture_component component, mixture_units units) {
+    vec4 c = component.covariance + units.deviation * units.deviation * vec4(1.0, 1.0, 0.0, 1.0);
+    float volume = c.x * c.y - c.z * c.z;
+    return log(max(BIN_WIDTHS ? volume * c.w : volume, 1e-37));
+}
+
+// What a merger loses at most: Runnalls 2007, A Kullback-Leibler Approach to Gaussian Mixture
+// Reduction, Eq. 21.
+float loss_of_merger(mixture_component a, mixture_component b, mixture_units units) {
+    return (a.part + b.part) * log_volume(merged(a, b), units) -
+           a.part * log_volume(a, units) - b.part * log_volume(b, units);
+}
+
+// Two at a time, those that lose least. One thread.
+void merge_once(uint count, mixture_units units) {
+    float least = 1e38;
+    uvec2 pair = uvec2(0u, 1u);
+    for (uint i = 0u; i < count; ++i) {
+        for (uint j = i + 1u; j < count; ++j) {
+            float loss = loss_of_merger(components[i], components[j], units);
+            if (loss < least) {
+                least = loss;
+                pair = uvec2(i, j);
+            }
+        }
+    }
+    components[pair.x] = merged(components[pair.x], components[pair.y]);
+    components[pair.y] = components[count - 1u];
+}
+
+void merge_components(mixture_units units) {
+    for (uint count = COMPONENTS; count > BINS; --count) {
+        barrier();
+        if (thread() == 0u)
+            merge_once(count, units);
+    }
+    set_aside(BINS);
+}
+
+void take_steps(sampled_area area, uint by_distance, mixture_units units) {
+    for (uint round = 0; round < ROUNDS; ++round) {
+        mixture_units shape = units;
+        shape.is_round = units.is_round && round + 1u < ROUNDS;
+        take_step(area, round < by_distance, shape);
+    }
+}
+
+// From a start, to the components that their lobes make. With fewer components than the lobes have
+// groups, which are best together is found from all groups: what is nearest is often something
+// sharp and frequent that should stay alone.
+float fit_from(sampled_area area, uint start, mixture_units units) {
+    uint count = start == MERGED ? COMPONENTS : BINS;
+    set_aside(count);
+    for (int j = 0; j < int(count); ++j)
+        add_component(area, j, start == MERGED ? FAR_APART : start, units);
+    take_steps(area, start == K_MEANS ? ROUNDS_OF_K_MEANS : 1u, units);
+    if (start == MERGED) {
+        merge_components(units);
+        take_steps(area, 0u, units);
+    }
+    return squared_error(area, units);
+}
+
+// Keeps the components that a start leads to if their error is below `least`, which it lowers then.
+bool keep_better(sampled_area area, uint start, mixture_units units, inout float least) {
+    if (start == MERGED && (BINS == 1u || BINS == COMPONENTS))
+        return false;
+    float error = fit_from(area, start, units);
+    // Texels' own mixtures start better at components of the other starts, unless these miss
+    // a group of lobes.
+    if (start == MERGED)
+        error += LEAST_GAIN * abs(least);
+    if (error >= least)
+        return false;
+    least = error;
+    keep_components();
+    return true;
+}
+
+#endif
