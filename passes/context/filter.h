@@ -71,6 +71,8 @@ struct lobe_filter {
     bool fetches_texels;
     /// The shader reads the environment's moments over hemispheres for materials with heights.
     bool gathers_moments;
+    /// Shading runs loops for each light, which devices may cut short if there are many.
+    bool loops_for_lights;
     filter_slopes slopes;
     /// Computes on the host what the filter keeps of a material from frame to frame, into the
     /// filter's own slot for that material and the current values of the knobs that decide slots;

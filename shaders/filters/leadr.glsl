@@ -3,10 +3,11 @@
 // Displacement and Reflectance Mapping. What is behind the mean plane is dark, as on the displaced
 // surface that the maps represent, although a normal map's own texels never hide each other.
 //
-// The covariance of the base lobes is added over the plane of the mean normal, to first order, so
-// that narrow lobes match the base material; GGX keeps its tails (leadr/base_tails.glsl). The paper
-// adds Beckmann lobes over the surface's plane, which makes the lobe of a tilted footprint too
-// narrow: 13 % too bright at 16 degrees (BASE_PLANE_SURFACE).
+// Under lights each texel has its base lobe about its own normal, and GGX its tails
+// (leadr/mirroring_facets.glsl); in light from an environment, the covariance of the base lobes is
+// added over the plane of the mean normal. The paper adds Beckmann lobes over the surface's plane,
+// which makes the lobe of a tilted footprint too narrow: 13 % too bright at 16 degrees
+// (BASE_PLANE_SURFACE).
 
 #pragma variants CLOSED_SURFACE WAVES
 
@@ -18,13 +19,10 @@
 
 #include "shading/slope_maps.glsl"
 #include "filters/leadr/drawn_slope.glsl"
-#include "filters/leadr/base_tails.glsl"
+#include "filters/leadr/mirroring_facets.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BASE_PLANE) const uint BASE_PLANE = BASE_PLANE_FACETS;
-
-// Of base lobes: the paper has Beckmann's alone.
-const uint BASE_TERMS = BASE_PLANE == BASE_PLANE_FACETS ? TAIL_TERMS : 1u;
 
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     leadr_knobs filter_knobs;
@@ -35,9 +33,10 @@ float height_scale() {
 }
 
 struct footprint_lobe {
-    slope_distribution facets; // texels' slopes: facets of the Lambert part
-    slope_distribution slopes; // base lobes included, without their tails: facets that mirror
+    slope_distribution facets; // texels' slopes
+    slope_distribution slopes; // base lobes included, without the tails of GGX
     vec3 texels, base;         // covariances of both parts of the latter
+    float base_variance;       // of base lobes, over their own plane
     // Of displaced geometry: variance of the texels' slopes that triangles draw, so that the
     // facets' area does not depend on it, and what shadows them.
     float drawn;
@@ -60,7 +59,8 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     vec3 base = base_covariance(moments);
     return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
                           slope_distribution_of(moments.mean, moments.covariance + base),
-                          moments.covariance, base, 0.0, moments.mean, moments.covariance);
+                          moments.covariance, base, moments.base_variance, 0.0, moments.mean,
+                          moments.covariance);
 }
 
 // Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
@@ -89,48 +89,18 @@ float undrawn_part(footprint_lobe lobe, vec3 covariance) {
     return 1.0 - lobe.drawn / max(trace(covariance), max(lobe.drawn, 1e-12));
 }
 
-// Lambda of the facets that mirror, about any mean. `undrawn`: only of what triangles do not draw.
-// `terms`: of the base lobes.
-float lambda_of_mirrors(footprint_lobe lobe, vec2 mean, vec3 texels, bool undrawn, uint terms,
-                        vec3 direction) {
-    float height = height_above_slope(mean, direction), sum = 0.0;
-    for (uint i = 0u; i < terms; ++i) {
-        vec3 covariance = texels + term_spread(i, terms) * lobe.base;
-        float part = undrawn ? undrawn_part(lobe, covariance) : 1.0;
-        sum += term_part(i, terms) *
-               lambda_of_variance(height, part * part * variance_along(covariance, direction.xy));
-    }
-    return sum;
-}
-
-// The part of the facets that both directions see.
-float visibility_of_mirrors(footprint_lobe lobe, uint terms, vec3 incoming, vec3 outgoing) {
-    vec2 mean = lobe.slopes.mean;
-    if (height_above_slope(mean, outgoing) <= 0.0 ||
-        height_above_slope(DISPLACED ? lobe.shadowing_mean : mean, incoming) <= 0.0)
-        return 0.0;
-    float seen = 1.0 + lambda_of_mirrors(lobe, mean, lobe.texels, DISPLACED, terms, outgoing);
+// The part of the facets that both directions see. `base`: covariance that base lobes add to that
+// of the texels, where they are masked together.
+float visibility_of_facets(footprint_lobe lobe, vec3 base, vec3 incoming, vec3 outgoing) {
+    vec3 covariance = lobe.texels + base;
+    slope_distribution slopes = slope_distribution_of(lobe.facets.mean, covariance);
     if (!DISPLACED)
-        return 1.0 / (seen + lambda_of_mirrors(lobe, mean, lobe.texels, false, terms, incoming));
-    float facing = 1.0 + lambda_of_mirrors(lobe, lobe.shadowing_mean, lobe.shadowing_covariance,
-                                           false, terms, outgoing);
-    float hidden = lambda_of_mirrors(lobe, lobe.shadowing_mean, lobe.shadowing_covariance, false,
-                                     terms, incoming);
-    return facing / (seen * (facing + hidden));
-}
-
-slope_distribution undrawn_facets(footprint_lobe lobe) {
-    return slope_distribution(lobe.facets.mean,
-                              undrawn_part(lobe, lobe.texels) * lobe.facets.root);
-}
-
-float visibility_of_facets(footprint_lobe lobe, vec3 incoming, vec3 outgoing) {
-    if (!DISPLACED)
-        return masking_shadowing_of_slopes(lobe.facets, incoming, outgoing);
-    return masking_of_slopes(undrawn_facets(lobe), outgoing) *
+        return masking_shadowing_of_slopes(slopes, incoming, outgoing);
+    slopes.root *= undrawn_part(lobe, covariance);
+    return masking_of_slopes(slopes, outgoing) *
            shadowing_of_seen_slopes(
-               slope_distribution_of(lobe.shadowing_mean, lobe.shadowing_covariance), incoming,
-               outgoing);
+               slope_distribution_of(lobe.shadowing_mean, lobe.shadowing_covariance + base),
+               incoming, outgoing);
 }
 
 // Of Lambert facets of albedo pi, before their own masking and shadowing: Eqs. 20 and 23, where
@@ -147,24 +117,32 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
 
 vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
     return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
-                              visibility_of_facets(fetched.lobe, incoming, outgoing) *
+                              visibility_of_facets(fetched.lobe, vec3(0.0), incoming, outgoing) *
                                   fetched.gathered[light]);
 }
 
-// Eq. 17. D F/4 is of facets that are seen as large as they are.
-vec3 mirror_facets(footprint_lobe lobe, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
-    vec2 mean = lobe.slopes.mean, slope = slope_of_normal(halfway);
-    float facing = max(height_above_slope(slope, outgoing), COSINE_MINIMUM), distribution = 0.0;
-    for (uint i = 0u; i < BASE_TERMS; ++i) {
-        vec3 covariance = lobe.texels + term_spread(i, BASE_TERMS) * lobe.base;
-        float size = term_part(i, BASE_TERMS);
+// Eq. 17, or each texel's own lobe instead of D.
+vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
+    footprint_lobe lobe = fetched.lobe;
+    vec2 mean = lobe.slopes.mean;
+    float distribution;
+    vec3 base = vec3(0.0);
+    if (BASE_PLANE == BASE_PLANE_FACETS) {
+        distribution = mirroring_facets(lobes_of_texels(
+            mean, lobe.texels, lobe.base_variance, fetched.filtered.width,
+            undrawn_part(lobe, lobe.texels), halfway, outgoing, incoming));
+    } else {
+        base = lobe.base;
+        distribution = distribution_of_slopes(lobe.slopes, halfway);
+        // D F/4 is of facets that are seen as large as they are.
+        vec2 slope = slope_of_normal(halfway);
         if (DISPLACED)
-            size *= facet_height(mean, slope, undrawn_part(lobe, covariance), outgoing) / facing;
-        distribution += size * distribution_of_slopes(slope_distribution_of(mean, covariance),
-                                                      halfway);
+            distribution *= facet_height(mean, slope, undrawn_part(lobe, lobe.texels + base),
+                                         outgoing) /
+                            max(height_above_slope(slope, outgoing), COSINE_MINIMUM);
     }
     return microfacet_specular(fresnel, distribution,
-                               visibility_of_mirrors(lobe, BASE_TERMS, incoming, outgoing),
+                               visibility_of_facets(lobe, base, incoming, outgoing),
                                height_above_slope(mean, outgoing));
 }
 
@@ -269,7 +247,7 @@ vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint l
     vec3 fresnel = vec3(0.0), sum;
     if (MODEL == MODEL_MICROFACET) {
         fresnel = fresnel_schlick(fetched.filtered.specular, vec3(1.0), dot(incoming, halfway));
-        sum = mirror_facets(fetched.lobe, fresnel, halfway, outgoing, incoming);
+        sum = mirror_facets(fetched, fresnel, halfway, outgoing, incoming);
     } else {
         sum = lobes_colour() * fetched.filtered.specular *
               lobe_of_slopes(fetched.lobe.slopes, halfway);
@@ -299,7 +277,7 @@ vec3 sampled_slopes(surface_point surface, footprint_lobe lobe, vec3 f0) {
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
             float seen = facet_height(slopes.mean, slope, undrawn, surface.outgoing) *
-                         visibility_of_mirrors(lobe, 1u, incoming, surface.outgoing);
+                         visibility_of_facets(lobe, lobe.base, incoming, surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -322,7 +300,10 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
         return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
         return sampled_slopes(surface, fetched.lobe, frame.specular);
-    return reflect_masked_slopes(surface, half_vectors, frame.specular);
+    return reflect_masked_slopes(surface, half_vectors, frame.specular,
+                                 BASE_HAS_TAILS && BASE_PLANE == BASE_PLANE_FACETS
+                                     ? fetched.lobe.base_variance
+                                     : 0.0);
 }
 
 // Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Only masking is applied, as
@@ -342,7 +323,8 @@ vec3 lambert_slopes(appearance fetched, surface_point surface) {
     }
     float row = grid_weight();
     float height = height_above_slope(facets.mean, surface.outgoing);
-    float visible = masking_of_slopes(undrawn_facets(fetched.lobe), surface.outgoing);
+    facets.root *= undrawn;
+    float visible = masking_of_slopes(facets, surface.outgoing);
     return let_through(surface, fetched.filtered) * sum *
            (visible / (row * row * max(height, COSINE_MINIMUM)));
 }

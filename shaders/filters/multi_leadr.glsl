@@ -10,7 +10,7 @@
 #include "shading/slope_maps.glsl"
 #include "interface/moment_bins.h"
 #include "filters/leadr/drawn_slope.glsl"
-#include "filters/leadr/base_tails.glsl"
+#include "filters/leadr/mirroring_facets.glsl"
 #include "shading/facet_grid.glsl"
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
@@ -24,12 +24,12 @@ float height_scale() {
     return filter_knobs.height;
 }
 
-// A Gaussian of texels' slopes; with base lobes, but without their tails, those of facets that
-// mirror.
 struct slope_lobe {
     float part;
-    slope_distribution facets, slopes;
-    vec3 texels, base; // covariances of both parts of the latter
+    slope_distribution facets; // texels' slopes
+    slope_distribution slopes; // base lobes included, without the tails of GGX
+    vec3 texels;               // covariance of the former
+    float base_variance;       // of base lobes, over their own plane
 };
 
 struct footprint_lobe {
@@ -70,7 +70,7 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
         vec3 base = flat_covariance_of_tilted(own.mean, own.base_variance);
         result.lobes[i] = slope_lobe(part, slope_distribution_of(own.mean, own.covariance),
                                      slope_distribution_of(own.mean, own.covariance + base),
-                                     own.covariance, base);
+                                     own.covariance, own.base_variance);
         whole += part;
         base_variance += part * own.base_variance;
         mean += part * own.mean;
@@ -117,21 +117,16 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
 // ---------------------------------------------------------------------------------------------
 // Masking
 
-// 1 + Lambda of the whole mixture, of the texels' facets (no terms) or of base lobes of some terms.
-// The direction is above the mean plane.
-float area_ratio(appearance fetched, vec3 direction, uint terms) {
+// 1 + Lambda of the whole mixture, of the texels' facets alone or with base lobes. The direction is
+// above the mean plane.
+float area_ratio(appearance fetched, vec3 direction, bool with_base) {
     float area = 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         slope_lobe lobe = fetched.lobe.lobes[i];
-        float height = height_above_slope(lobe.facets.mean, direction);
-        if (terms == 0u)
-            area += lobe.part *
-                    mean_height(height, slope_variance_along(lobe.facets, direction.xy));
-        for (uint j = 0u; j < terms; ++j) {
-            vec3 covariance = lobe.texels + term_spread(j, terms) * lobe.base;
-            area += lobe.part * term_part(j, terms) *
-                    mean_height(height, variance_along(covariance, direction.xy));
-        }
+        area += lobe.part *
+                mean_height(height_above_slope(lobe.facets.mean, direction),
+                            with_base ? slope_variance_along(lobe.slopes, direction.xy)
+                                      : slope_variance_along(lobe.facets, direction.xy));
     }
     float height = height_above_slope(fetched.moments.mean, direction);
     return max(area / max(height, 1e-6), 1.0);
@@ -155,21 +150,20 @@ bool both_above(appearance fetched, vec3 incoming, vec3 outgoing) {
            height_above_slope(fetched.moments.mean, outgoing) > 0.0;
 }
 
-// The part of the surface that both directions see: Eq. 13.
-float mirror_visibility(appearance fetched, uint terms, vec3 incoming, vec3 outgoing) {
+// The part of the surface that both directions see, base lobes included: Eq. 13.
+float visibility_of_slopes(appearance fetched, vec3 incoming, vec3 outgoing) {
     return both_above(fetched, incoming, outgoing)
-               ? 1.0 / (area_ratio(fetched, incoming, terms) +
-                        area_ratio(fetched, outgoing, terms) - 1.0)
+               ? 1.0 / (area_ratio(fetched, incoming, true) +
+                        area_ratio(fetched, outgoing, true) - 1.0)
                : 0.0;
 }
 
-// The same of diffuse facets. Which of them both see depends on the azimuths; of facets that
-// mirror, base lobes are part, which the base material masks without azimuths.
-float diffuse_visibility(appearance fetched, vec3 incoming, vec3 outgoing) {
+// The same of the texels' facets. Which of them both see depends on the azimuths.
+float visibility_of_facets(appearance fetched, vec3 incoming, vec3 outgoing) {
     if (!both_above(fetched, incoming, outgoing))
         return 0.0;
-    float first = area_ratio(fetched, incoming, 0u) - 1.0;
-    float second = area_ratio(fetched, outgoing, 0u) - 1.0;
+    float first = area_ratio(fetched, incoming, false) - 1.0;
+    float second = area_ratio(fetched, outgoing, false) - 1.0;
     return 1.0 / (1.0 + max(first, second) +
                   height_independence(incoming, outgoing) * min(first, second));
 }
@@ -191,24 +185,22 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
     fetched.gathered = sums / divisor_height(fetched, surface.outgoing);
 }
 
-vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
+vec3 mirror_facets(appearance fetched, vec3 fresnel, float visible, vec3 halfway, vec3 outgoing,
+                   vec3 incoming) {
     float distribution = 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         slope_lobe lobe = fetched.lobe.lobes[i];
-        for (uint j = 0u; j < TAIL_TERMS; ++j) {
-            slope_distribution slopes = slope_distribution_of(
-                lobe.slopes.mean, lobe.texels + term_spread(j, TAIL_TERMS) * lobe.base);
-            distribution += lobe.part * term_part(j, TAIL_TERMS) *
-                            distribution_of_slopes(slopes, halfway);
-        }
+        distribution +=
+            lobe.part * mirroring_facets(
+                             lobes_of_texels(lobe.facets.mean, lobe.texels, lobe.base_variance,
+                                             fetched.filtered.width, 1.0, halfway, outgoing,
+                                             incoming));
     }
-    return microfacet_specular(fresnel, distribution,
-                               mirror_visibility(fetched, TAIL_TERMS, incoming, outgoing),
+    return microfacet_specular(fresnel, distribution, visible,
                                height_above_slope(fetched.moments.mean, outgoing));
 }
 
-vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incoming, uint light) {
-    float visible = diffuse_visibility(fetched, incoming, outgoing);
+vec3 lambert_facets(appearance fetched, vec3 fresnel, float visible, uint light) {
     return microfacet_diffuse(fetched.filtered.diffuse, fresnel,
                               visible * fetched.gathered[light]);
 }
@@ -225,14 +217,15 @@ float half_vector_lobes(appearance fetched, vec3 halfway) {
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light) {
     vec3 halfway = half_vector(incoming, outgoing);
     vec3 fresnel = vec3(0.0), sum;
+    float visible = visibility_of_facets(fetched, incoming, outgoing);
     if (MODEL == MODEL_MICROFACET) {
         fresnel = fresnel_schlick(fetched.filtered.specular, vec3(1.0), dot(incoming, halfway));
-        sum = mirror_facets(fetched, fresnel, halfway, outgoing, incoming);
+        sum = mirror_facets(fetched, fresnel, visible, halfway, outgoing, incoming);
     } else {
         sum = lobes_colour() * fetched.filtered.specular * half_vector_lobes(fetched, halfway);
     }
     if (DIFFUSE)
-        sum += lambert_facets(fetched, fresnel, outgoing, incoming, light);
+        sum += lambert_facets(fetched, fresnel, visible, light);
     return sum;
 }
 
@@ -254,7 +247,7 @@ vec3 sampled_lobe(appearance fetched, surface_point surface, slope_distribution 
             float cosine = dot(normal, surface.outgoing);
             vec3 incoming = 2.0 * cosine * normal - surface.outgoing;
             float seen = max(height_above_slope(slope, surface.outgoing), 0.0) *
-                         mirror_visibility(fetched, 1u, incoming, surface.outgoing);
+                         visibility_of_slopes(fetched, incoming, surface.outgoing);
             float solid_angle = area * normal.z * normal.z * normal.z;
             float weight = exp(-0.5 * dot(place, place));
             sum += weight * (above_horizon(incoming) ? seen : 0.0) *
@@ -267,14 +260,16 @@ vec3 sampled_lobe(appearance fetched, surface_point surface, slope_distribution 
     return sum / (weights * divisor_height(fetched, surface.outgoing));
 }
 
-vec3 reflect_lobe(appearance fetched, surface_point surface, slope_distribution slopes) {
+vec3 reflect_lobe(appearance fetched, surface_point surface, slope_lobe lobe) {
+    slope_distribution slopes = lobe.slopes;
     if (MODEL == MODEL_MICROFACET && sampled_by_grid())
         return sampled_lobe(fetched, surface, slopes);
     half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return lobes_colour() * fetched.filtered.specular *
                reflect_half_vectors(surface, half_vectors);
-    return reflect_masked_slopes(surface, half_vectors, fetched.filtered.specular);
+    return reflect_masked_slopes(surface, half_vectors, fetched.filtered.specular,
+                                 BASE_HAS_TAILS ? lobe.base_variance : 0.0);
 }
 
 // Only masking is applied: it is unknown which part of the environment's light is shadowed.
@@ -299,13 +294,13 @@ vec3 reflect_footprint(appearance fetched, surface_point surface) {
         slope_lobe lobe = fetched.lobe.lobes[i];
         if (lobe.part < 1.0 / 64.0)
             continue;
-        sum += lobe.part * reflect_lobe(fetched, surface, lobe.slopes);
+        sum += lobe.part * reflect_lobe(fetched, surface, lobe);
         if (DIFFUSE)
             diffuse += lobe.part * lambert_lobe(fetched, surface, lobe.facets);
     }
     if (DIFFUSE && height_above_slope(fetched.moments.mean, surface.outgoing) > 0.0)
         sum += let_through(surface, fetched.filtered) * diffuse /
-               (area_ratio(fetched, surface.outgoing, 0u) *
+               (area_ratio(fetched, surface.outgoing, false) *
                 divisor_height(fetched, surface.outgoing));
     return sum;
 }

@@ -51,8 +51,7 @@ static const char *ignores(const lobe_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes get their mean colour; they are assumed to include masking";
     if (material->distribution == LOBE_DISTRIBUTION_GGX)
-        return "in light from an environment, GGX becomes Beckmann lobes of equal width, without "
-               "its tails";
+        return "with env=sampled, GGX becomes Beckmann lobes of equal width, without its tails";
     return NULL;
 }
 
@@ -62,6 +61,7 @@ const lobe_filter passes_filter_multi_leadr = {
     .paper = "after Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance "
              "Mapping, and Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "multi_leadr",
+    .loops_for_lights = true,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
     .knobs = knobs,

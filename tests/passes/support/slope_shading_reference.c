@@ -4,7 +4,6 @@
 
 #include "tests/passes/support/shading_reference.h"
 #include "tests/reference/lobe/half_vector_lobe.h"
-#include "tests/reference/lobe/plane_lobe.h"
 #include "tests/reference/microfacet/microfacet.h"
 #include "tests/reference/microfacet/slope_distribution.h"
 #include "tests/reference/vector.h"
@@ -139,29 +138,6 @@ void shade_lean(const lobe_material *material, const double moments[8], const do
 }
 
 // ---------------------------------------------------------------------------------------------
-// Base lobes as Gaussians
-
-/// GGX is a sum of Gaussians, whose error test_plane_lobe.c bounds.
-enum { MAXIMUM_TERMS = 4 };
-
-typedef struct gaussian_term {
-    double part, spread; ///< weight, and variance relative to the base lobe's
-} gaussian_term;
-
-static int gaussian_terms(const lobe_material *material, bool beckmann_alone,
-                          gaussian_term terms[MAXIMUM_TERMS]) {
-    terms[0] = (gaussian_term){1, 1};
-    if (beckmann_alone || material->model != LOBE_MATERIAL_MICROFACET ||
-        material->distribution != LOBE_DISTRIBUTION_GGX)
-        return 1;
-    double parts[MAXIMUM_TERMS], spreads[MAXIMUM_TERMS];
-    reference_plane_tail(0, parts, spreads);
-    for (int i = 0; i < MAXIMUM_TERMS; i++)
-        terms[i] = (gaussian_term){parts[i], spreads[i]};
-    return MAXIMUM_TERMS;
-}
-
-// ---------------------------------------------------------------------------------------------
 // LEADR
 
 static double height_above(const double slope[2], const double direction[3]) {
@@ -189,23 +165,57 @@ static double sum_of_facets(const reference_slopes *facets, const leadr_knobs *k
     return sum / weights / M_PI;
 }
 
-/// D times masking and shadowing of facets that mirror, base lobes included.
+/// What a texel mirrors, over its share of the light and F/4, times how large the texel is.
+static double mirrored_by_texel(const lobe_material *material, const double slope[2],
+                                double variance, const double half_vector[3],
+                                const double outgoing[3], const double incoming[3]) {
+    const double parameter = parameter_of_variance(material->distribution, variance);
+    // The other distributions become Beckmann's of equal variance.
+    const bool ggx = material->distribution == LOBE_DISTRIBUTION_GGX;
+    double normal[3];
+    reference_normal_of_slope(slope, normal);
+    return reference_normal_distribution(ggx ? LOBE_DISTRIBUTION_GGX : LOBE_DISTRIBUTION_BECKMANN,
+                                         normal, half_vector, sqrt(2 * variance)) *
+           reference_masking_shadowing(material->distribution, reference_dot(normal, incoming),
+                                       reference_dot(normal, outgoing), parameter) /
+           normal[2];
+}
+
+/// The mean over texels of Gaussian slopes, by the midpoint rule to 5 deviations.
+static double mirrored_by_texels(const lobe_material *material, const reference_slopes *facets,
+                                 double variance, const double half_vector[3],
+                                 const double outgoing[3], const double incoming[3]) {
+    enum { STEPS = 80 };
+    const double *c = facets->covariance, reach = 5;
+    const double first = sqrt(fmax(c[0], 1e-12)), mixed = c[2] / first,
+                 second = sqrt(fmax(c[1] - mixed * mixed, 1e-12));
+    double sum = 0, weights = 0;
+    for (int i = 0; i < STEPS * STEPS; i++) {
+        const double x = reach * (2 * (i / STEPS + 0.5) / STEPS - 1),
+                     y = reach * (2 * (i % STEPS + 0.5) / STEPS - 1);
+        const double weight = exp(-0.5 * (x * x + y * y));
+        const double slope[2] = {facets->mean[0] + first * x,
+                                 facets->mean[1] + mixed * x + second * y};
+        weights += weight;
+        sum +=
+            weight * mirrored_by_texel(material, slope, variance, half_vector, outgoing, incoming);
+    }
+    return sum / weights;
+}
+
+/// D times masking and shadowing of facets that mirror.
 static double mirrors_of(const lobe_material *material, const leadr_knobs *knobs,
-                         const reference_slopes *facets, const double base[3],
+                         const reference_slopes *facets, double variance,
                          const double half_vector[3], const double outgoing[3],
                          const double incoming[3]) {
-    gaussian_term terms[MAXIMUM_TERMS];
-    const int count = gaussian_terms(material, knobs->flat, terms);
-    double distribution = 0, in = 0, out = 0;
-    for (int i = 0; i < count; i++) {
-        reference_slopes slopes = *facets;
-        for (int k = 0; k < 3; k++)
-            slopes.covariance[k] += terms[i].spread * base[k];
-        distribution += terms[i].part * reference_distribution_of_slopes(&slopes, half_vector);
-        in += terms[i].part * reference_slope_lambda(&slopes, incoming);
-        out += terms[i].part * reference_slope_lambda(&slopes, outgoing);
-    }
-    return distribution / (1 + in + out);
+    if (!knobs->flat)
+        return mirrored_by_texels(material, facets, variance, half_vector, outgoing, incoming) *
+               reference_slope_masking_shadowing(facets, incoming, outgoing);
+    reference_slopes slopes = *facets;
+    for (int i = 0; i < 2; i++)
+        slopes.covariance[i] += variance;
+    return reference_distribution_of_slopes(&slopes, half_vector) *
+           reference_slope_masking_shadowing(&slopes, incoming, outgoing);
 }
 
 void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const double moments[8],
@@ -230,8 +240,8 @@ void shade_leadr(const lobe_material *material, const leadr_knobs *knobs, const 
     double seen = in > 0 && out > 0;
     double mirror =
         !microfacet ? reference_lobe_of_slopes(&slopes, half_vector)
-        : seen > 0  ? mirrors_of(material, knobs, &facets, base, half_vector, outgoing, incoming)
-                    : 0;
+        : seen > 0 ? mirrors_of(material, knobs, &facets, variance, half_vector, outgoing, incoming)
+                   : 0;
     double lambert = seen * sum_of_facets(&facets, knobs, outgoing, incoming) / out *
                      reference_slope_masking_shadowing(&facets, incoming, outgoing);
     for (int i = 0; i < 3; i++) {
@@ -278,21 +288,20 @@ double multi_leadr_area_ratio(const slope_component *components, int count,
     return area / height;
 }
 
-/// Base lobes become part of the components, as they do for facets that mirror.
-static void add_base(const slope_component *components, int count, double spread,
-                     slope_component *mirrors) {
+/// Base lobes become part of the components.
+static void add_base(const slope_component *components, int count, slope_component *mirrors) {
     for (int i = 0; i < count; i++) {
         double base[3];
         mirrors[i] = components[i];
         reference_flat_covariance(components[i].moments, components[i].moments[3], base);
         for (int k = 0; k < 3; k++)
-            mirrors[i].moments[4 + k] += spread * base[k];
+            mirrors[i].moments[4 + k] += base[k];
     }
 }
 
 /// Ashikhmin et al. 2000, as in Heitz 2014, section 5.3.
-static double diffuse_visibility(const slope_component *components, int count,
-                                 const double incoming[3], const double outgoing[3]) {
+static double visibility_of_facets(const slope_component *components, int count,
+                                   const double incoming[3], const double outgoing[3]) {
     const double in = multi_leadr_area_ratio(components, count, incoming) - 1;
     const double out = multi_leadr_area_ratio(components, count, outgoing) - 1;
     const double lengths = hypot(incoming[0], incoming[1]) * hypot(outgoing[0], outgoing[1]);
@@ -315,7 +324,7 @@ static multi_leadr_sums sum_components(const slope_component *components, int co
                                        const double incoming[3], const double half_vector[3]) {
     multi_leadr_sums sums = {0};
     slope_component mirrors[8];
-    add_base(components, count, 1, mirrors);
+    add_base(components, count, mirrors);
     for (int i = 0; i < count; i++) {
         const double part = components[i].part;
         reference_slopes facets, slopes;
@@ -330,28 +339,19 @@ static multi_leadr_sums sum_components(const slope_component *components, int co
     return sums;
 }
 
-/// D times masking and shadowing of facets that mirror, base lobes included.
-static double mirrors_of_components(const lobe_material *material,
-                                    const slope_component *components, int count,
-                                    const double half_vector[3], const double outgoing[3],
-                                    const double incoming[3]) {
-    gaussian_term terms[MAXIMUM_TERMS];
-    const int term_count = gaussian_terms(material, false, terms);
-    double distribution = 0, in = 0, out = 0;
-    for (int t = 0; t < term_count; t++) {
-        slope_component mirrors[8];
-        add_base(components, count, terms[t].spread, mirrors);
-        for (int i = 0; i < count; i++) {
-            reference_slopes slopes;
-            double variance;
-            read_moments(mirrors[i].moments, &slopes, &variance);
-            distribution += terms[t].part * components[i].part *
-                            reference_distribution_of_slopes(&slopes, half_vector);
-        }
-        in += terms[t].part * (multi_leadr_area_ratio(mirrors, count, incoming) - 1);
-        out += terms[t].part * (multi_leadr_area_ratio(mirrors, count, outgoing) - 1);
+static double mirrored_by_components(const lobe_material *material,
+                                     const slope_component *components, int count,
+                                     const double half_vector[3], const double outgoing[3],
+                                     const double incoming[3]) {
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        reference_slopes facets;
+        double variance;
+        read_moments(components[i].moments, &facets, &variance);
+        sum += components[i].part *
+               mirrored_by_texels(material, &facets, variance, half_vector, outgoing, incoming);
     }
-    return distribution / (1 + in + out);
+    return sum;
 }
 
 void shade_multi_leadr(const lobe_material *material, const leadr_knobs *knobs,
@@ -366,15 +366,14 @@ void shade_multi_leadr(const lobe_material *material, const leadr_knobs *knobs,
         sum_components(components, count, knobs, outgoing, incoming, half_vector);
     const bool seen = sums.in > 0 && sums.out > 0;
     const bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    double mirror = sums.lobe, lambert = 0;
+    const double visible =
+        seen ? visibility_of_facets(components, count, incoming, outgoing) / sums.out : 0;
+    const double lambert = sums.facets * visible;
+    double mirror = sums.lobe;
     if (microfacet)
-        mirror = seen ? mirrors_of_components(material, components, count, half_vector, outgoing,
-                                              incoming) /
-                            (4 * sums.out)
-                      : 0;
-    if (seen)
-        lambert =
-            sums.facets / sums.out * diffuse_visibility(components, count, incoming, outgoing);
+        mirror =
+            0.25 * visible *
+            mirrored_by_components(material, components, count, half_vector, outgoing, incoming);
     for (int i = 0; i < 3; i++)
         radiance[i] = mirror * (microfacet ? fresnel_of(material, i, incoming, half_vector)
                                            : colour_of_lobes(material, i)) +
