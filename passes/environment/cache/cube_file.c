@@ -94,6 +94,8 @@ bool passes_cube_file_save(const char *folder, uint64_t key, const cube_image *c
     saving_log log = {host, "filtered environment"};
     const lobe_host saving = passes_saving_host(&log);
     char *path = path_of(lobe_host_allocator(host), folder, key);
+    if (!path)
+        lobe_host_fail(&saving, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", folder);
     const bool saved = path && save_file(path, key, cube, &saving) == LOBE_OK;
     lobe_release(path);
     return saved;

@@ -172,6 +172,8 @@ bool passes_kept_file_save(const char *folder, uint64_t key, const kept_layout *
     saving_log log = {host, layout->what};
     const lobe_host saving = passes_saving_host(&log);
     char *path = passes_kept_file_path(folder, key, layout, host);
+    if (!path)
+        lobe_host_fail(&saving, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", folder);
     const bool saved = path && save_file(path, key, layout, images, buffers, &saving) == LOBE_OK;
     lobe_release(path);
     return saved;
