@@ -73,34 +73,51 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
 // ---------------------------------------------------------------------------------------------
 // Candidates
 
-/// A mixture whose bins have the footprint's colour or their own, and its error over all
-/// footprints: relative L2.
+/// A mixture whose bins have the footprint's colour or their own, and the root of its mean squared
+/// error over all footprints, each relative L2: a pixel's error counts as much where it is dark.
+/// (If errors were summed before that, those of polished patches, where all lobes are sharp and no
+/// candidate is good, would outweigh all others.)
 typedef struct candidate {
     bin_choice choice;
     double error;
 } candidate;
 
 static void compare(const footprint_set *set, const plane_mixture *m, double errors[2]) {
-    footprint_error sum = {0};
-    double diffuse = 0;
+    double squares[2] = {0}, diffuse = 0;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
-        passes_footprint_compare(&set->all[i], m, &sum);
+        footprint_error error = {0};
+        passes_footprint_compare(&set->all[i], m, &error);
+        const double truth = FOOTPRINTS * fmax(error.truth, 1e-30);
+        squares[0] += error.mean_colour / truth;
+        squares[1] += error.bin_colours / truth;
         diffuse += set->all[i].diffuse_error / FOOTPRINTS;
     }
-    const double truth = fmax(sum.truth, 1e-30);
-    errors[0] = sqrt(sum.mean_colour / truth) + diffuse_weight * diffuse;
-    errors[1] = sqrt(sum.bin_colours / truth);
+    errors[0] = sqrt(squares[0]) + diffuse_weight * diffuse;
+    errors[1] = sqrt(squares[1]);
+}
+
+/// Whether an earlier start led to about the same likelihood, and so to the same mixture.
+static bool is_known(const double *likelihoods, uint32_t start) {
+    for (uint32_t i = 0; i < start; i++)
+        if (fabs(likelihoods[i] - likelihoods[start]) < 1e-4)
+            return true;
+    return false;
 }
 
 /// Finds the fits of `bins` components with the smallest error, without and with own colours.
 static void fit_best(const footprint_set *set, const lobe_survey *survey, uint32_t bins,
                      candidate best[2]) {
+    double likelihoods[MIXTURE_STARTS];
     best[0].error = best[1].error = INFINITY;
     for (uint32_t i = 0; i < (bins > 1 ? POINT_NUMBERS * MIXTURE_STARTS : 1); i++) {
+        const uint32_t start = i % MIXTURE_STARTS;
         plane_mixture trial;
         double errors[2];
-        passes_mixture_fit(survey->samples, survey->count, bins, points[i / MIXTURE_STARTS],
-                           i % MIXTURE_STARTS, &trial);
+        passes_mixture_fit(survey->samples, survey->count, bins, points[i / MIXTURE_STARTS], start,
+                           &trial);
+        likelihoods[start] = trial.likelihood;
+        if (is_known(likelihoods, start))
+            continue;
         compare(set, &trial, errors);
         for (int own = 0; own < 2; own++)
             if (i == 0 || errors[own] < best[own].error)

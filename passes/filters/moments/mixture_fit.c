@@ -29,6 +29,13 @@ static double logarithm_of_chance(const mixture_component *c, double points,
     return c->offset - 0.5 * points * (square + trace);
 }
 
+/// The exponential of a logarithm that is at most 0; most of them are 0 or far below.
+static double share_of_largest(double logarithm) {
+    if (logarithm == 0)
+        return 1;
+    return logarithm < -40 ? 0 : exp(logarithm);
+}
+
 double passes_mixture_share(const plane_mixture *m, const plane_sample *s,
                             double members[MOMENT_MAXIMUM_BINS]) {
     double most = -INFINITY, sum = 0;
@@ -37,7 +44,7 @@ double passes_mixture_share(const plane_mixture *m, const plane_sample *s,
         most = fmax(most, members[i]);
     }
     for (uint32_t i = 0; i < m->count; i++)
-        sum += members[i] = exp(members[i] - most);
+        sum += members[i] = share_of_largest(members[i] - most);
     for (uint32_t i = 0; i < m->count; i++)
         members[i] /= sum;
     return most + log(sum);

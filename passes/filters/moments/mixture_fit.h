@@ -21,7 +21,7 @@ typedef struct plane_mixture {
 
 /// Different starts may end in different mixtures: start 0 distinguishes widths, start 1 distances
 /// from the middle, the others are random.
-enum { MIXTURE_STARTS = 4 };
+enum { MIXTURE_STARTS = 8 };
 
 /// Fits `bins` components by expectation maximisation. Each lobe counts as `points` points drawn
 /// from it. Vasconcelos, Lippman 1998, Learning Mixture Hierarchies. `count` is above 0. The result

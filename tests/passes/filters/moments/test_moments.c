@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/context/sample_pattern.h"
 #include "passes/filters/moments/partition.h"
 #include "passes/upload/scene_upload.h"
 #include "tests/passes/support/moment_reference.h"
@@ -521,6 +522,54 @@ static void small_shares_alone_are_passed_over(void **state) {
     ground_free(&g);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Samples of a map
+
+/// Stone with grit under pools of water: roughness 0.1 to 0.6. The map is moved by `shift` texels
+/// along both axes.
+static ground wet_stone(int shift) {
+    enum { EXTENT = 128 };
+    ground g = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 0),
+                .normals = constant_map(EXTENT, EXTENT, 0.5f, 0.5f, 1),
+                .widths = constant_map(EXTENT, EXTENT, 1, 1, 0)};
+    for (int i = 0; i < EXTENT * EXTENT; i++) {
+        const int x = (i % EXTENT + shift) % EXTENT, y = (i / EXTENT + shift) % EXTENT;
+        const double across = 2 * M_PI * x / EXTENT, down = 2 * M_PI * y / EXTENT;
+        const double height = sin(across) + sin(down + 1) + 0.5 * sin(3 * across - 2 * down);
+        const double dry = fmin(fmax(2 * (height - 0.9), 0), 1);
+        const uint64_t number = 3 * (uint64_t)(x + y * EXTENT);
+        const double tilt = passes_hashed_number(number) < 0.15 ? 15 : 0;
+        double normal[3];
+        slope_plane_direction(tilt * passes_hashed_number(number + 1),
+                              2 * M_PI * passes_hashed_number(number + 2), normal);
+        put_normal(&g.normals, i % EXTENT, i / EXTENT, normal);
+        ((float *)g.widths.texels)[4 * i + 1] = (float)(0.1 + 0.5 * dry);
+    }
+    return g;
+}
+
+/// Bins are fitted to other texels of a map that is moved, and are not as many for each of these.
+static void samples_of_a_map_give_about_the_same_picture(void **state) {
+    enum { SHIFTS = 4, LIGHTS = 6 };
+    double least[LIGHTS], most[LIGHTS];
+    for (int i = 0; i < SHIFTS; i++) {
+        ground g = wet_stone(29 * i);
+        for (int light = 0; light < LIGHTS; light++) {
+            double outgoing[3], incoming[3];
+            float found[3];
+            slope_plane_direction(20, 0.4, outgoing);
+            slope_plane_direction(20 - 18 * light, 0.4, incoming);
+            draw_pixel(*state, &g, chosen.settings, outgoing, incoming, found);
+            least[light] = fmin(i ? least[light] : INFINITY, (double)found[0]);
+            most[light] = fmax(i ? most[light] : 0, (double)found[0]);
+        }
+        ground_free(&g);
+    }
+    for (int light = 0; light < LIGHTS; light++)
+        if (!(least[light] > 0.05 && most[light] <= 1.03 * least[light]))
+            fail_msg("light %d: %g to %g", light, least[light], most[light]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(microfacets_are_shaded_by_their_moments),
@@ -530,6 +579,7 @@ int main(void) {
         cmocka_unit_test(moments_of_two_sides_add_up),
         cmocka_unit_test(bins_keep_colours_with_directions),
         cmocka_unit_test(storages_are_close),
+        cmocka_unit_test(samples_of_a_map_give_about_the_same_picture),
         cmocka_unit_test(small_shares_alone_are_passed_over),
         cmocka_unit_test(knobs_at_their_ends_together),
     };

@@ -73,7 +73,7 @@ static moment_partition partition_of_widths(fixture *f, const float *widths, uin
                                             uint32_t bins) {
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
-    material.width_map = scene_add_map(scene, widths_in_turn(40, 30, widths, count));
+    material.width_map = scene_add_map(scene, widths_in_turn(24, 24, widths, count));
     material.width_map.nearest = true;
     return partition_of(f, scene, &material, PARTITION_FITTED, bins, false);
 }
