@@ -21,6 +21,9 @@ static const double tolerance = 1.05, negligible = 0.02;
 // An error of the mean diffuse colour counts as much as this much relative L2 of the lobes.
 static const double diffuse_weight = 3;
 
+// Below this part of what footprints reflect in the mean, errors count as much as they add to it.
+static const double least_colour = 0.1;
+
 enum {
     /// Maximum number of bins chosen automatically: more bins cost more than they improve a pixel.
     MOST = 3,
@@ -33,6 +36,7 @@ enum {
 
 typedef struct footprint_set {
     footprint all[FOOTPRINTS];
+    double units[FOOTPRINTS]; ///< that squared errors are divided by
     plane_sample lobes[];
 } footprint_set;
 
@@ -44,6 +48,19 @@ static void read_patch(const lobe_scene *scene, const device_material *material,
         passes_material_patch_point(&at, i, point);
         patch->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
                                                   &patch->lobes[patch->count]);
+    }
+}
+
+/// Errors are relative to each footprint, but for those that are all but black.
+static void find_units(footprint_set *set) {
+    double colours[FOOTPRINTS], mean = 0;
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        colours[i] = sqrt(set->all[i].square / fmax(set->all[i].whites, 1e-30));
+        mean += colours[i] / FOOTPRINTS;
+    }
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        const double colour = fmax(colours[i], least_colour * mean);
+        set->units[i] = fmax(set->all[i].whites * colour * colour, 1e-30);
     }
 }
 
@@ -67,6 +84,8 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
         }
         passes_footprint_complete(patch, microfacet);
     }
+    if (set)
+        find_units(set);
     return set;
 }
 
@@ -85,11 +104,9 @@ typedef struct candidate {
 static void compare(const footprint_set *set, const plane_mixture *m, double errors[2]) {
     double squares[2] = {0}, diffuse = 0;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
-        footprint_error error = {0};
-        passes_footprint_compare(&set->all[i], m, &error);
-        const double truth = FOOTPRINTS * fmax(error.truth, 1e-30);
-        squares[0] += error.mean_colour / truth;
-        squares[1] += error.bin_colours / truth;
+        const footprint_error error = passes_footprint_compare(&set->all[i], m);
+        squares[0] += error.mean_colour / set->units[i] / FOOTPRINTS;
+        squares[1] += error.bin_colours / set->units[i] / FOOTPRINTS;
         diffuse += set->all[i].diffuse_error / FOOTPRINTS;
     }
     errors[0] = sqrt(squares[0]) + diffuse_weight * diffuse;

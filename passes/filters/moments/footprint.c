@@ -61,6 +61,19 @@ static void draw_places(footprint *patch) {
     }
 }
 
+/// How often pixels see a half vector: under a viewer and lights that are spread over the
+/// hemisphere hardly any is steep.
+static double weight_of(const double place[2]) {
+    double cosine = 1 - 0.5 * (place[0] * place[0] + place[1] * place[1]);
+    double square = cosine > 0 ? cosine * cosine : 0;
+    return fmax(square * square, 1e-6);
+}
+
+/// What an integral over half vectors counts a place as.
+static double part_of(const footprint *patch, uint32_t place) {
+    return weight_of(patch->places[place]) / fmax(patch->densities[place], 1e-30);
+}
+
 static void find_truth(footprint *patch) {
     for (uint32_t k = 0; k < patch->count; k++) {
         const plane_sample *lobe = &patch->lobes[k];
@@ -71,6 +84,13 @@ static void find_truth(footprint *patch) {
             for (int j = 0; j < 3; j++)
                 patch->truth[i][j] += value * lobe->specular[j];
         }
+    }
+    patch->square = patch->whites = 0;
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
+        const double *truth = patch->truth[i], white = patch->densities[i];
+        patch->square +=
+            part_of(patch, i) * (truth[0] * truth[0] + truth[1] * truth[1] + truth[2] * truth[2]);
+        patch->whites += part_of(patch, i) * 3 * white * white;
     }
 }
 
@@ -192,18 +212,10 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
     return count;
 }
 
-/// How often pixels see a half vector: under a viewer and lights that are spread over the
-/// hemisphere hardly any is steep.
-static double weight_of(const double place[2]) {
-    double cosine = 1 - 0.5 * (place[0] * place[0] + place[1] * place[1]);
-    double square = cosine > 0 ? cosine * cosine : 0;
-    return fmax(square * square, 1e-6);
-}
-
-void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
-                              footprint_error *error) {
+footprint_error passes_footprint_compare(const footprint *patch, const plane_mixture *mixture) {
     footprint_bin bins[MOMENT_MAXIMUM_BINS];
     const uint32_t count = collect(patch, mixture, bins);
+    footprint_error error = {0};
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
         double all = 0, coloured[3] = {0};
         for (uint32_t k = 0; k < count; k++) {
@@ -213,13 +225,13 @@ void passes_footprint_compare(const footprint *patch, const plane_mixture *mixtu
             for (int j = 0; j < 3; j++)
                 coloured[j] += value * bins[k].colour[j];
         }
-        const double density = fmax(patch->densities[i], 1e-30) / weight_of(patch->places[i]);
+        const double part = part_of(patch, i);
         for (int j = 0; j < 3; j++) {
             double truth = patch->truth[i][j];
             double mean = all * patch->colour[j] - truth, own = coloured[j] - truth;
-            error->mean_colour += mean * mean / density;
-            error->bin_colours += own * own / density;
-            error->truth += truth * truth / density;
+            error.mean_colour += part * mean * mean;
+            error.bin_colours += part * own * own;
         }
     }
+    return error;
 }

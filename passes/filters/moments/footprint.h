@@ -17,20 +17,20 @@ typedef struct footprint {
     double densities[FOOTPRINT_PLACES];
     double truth[FOOTPRINT_PLACES][3]; ///< what the lobes reflect there, by colour
     double colour[3];                  ///< mean specular colour, as averaged maps have it
+    double square;                     ///< of what the lobes reflect, integrated over half vectors
+    double whites;                     ///< the same of white lobes
     double diffuse_error; ///< of the diffuse colour of averaged maps, relative to all colours
 } footprint;
 
 /// Completes a footprint of which the first three are set. `microfacet`: colours are F0.
 void passes_footprint_complete(footprint *patch, bool microfacet);
 
-/// Squared errors and squares of the truth, integrated over half vectors.
+/// Squared errors, integrated over half vectors.
 typedef struct footprint_error {
     double mean_colour, bin_colours; ///< bins with the footprint's mean colour, or with their own
-    double truth;
 } footprint_error;
 
-/// Adds the error of the bins that the mixture makes of the footprint.
-void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
-                              footprint_error *error);
+/// The error of the bins that the mixture makes of the footprint.
+footprint_error passes_footprint_compare(const footprint *patch, const plane_mixture *mixture);
 
 #endif

@@ -122,6 +122,53 @@ static void as_many_bins_as_pay(void **state) {
     assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
 }
 
+/// Noise beside polished facets of two sides, which reflect this part of what the noise does.
+static moment_partition partition_of_noise_and_facets(fixture *f, float facets) {
+    enum { EXTENT = 128 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 31);
+    lobe_image widths = random_map(EXTENT, EXTENT, 0.1, 1, 32);
+    lobe_image colours = constant_map(EXTENT, EXTENT, 1, 1, 1);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const size_t at = (size_t)4 * i;
+        ((float *)widths.texels)[at + 2] = 1;
+        if (i % EXTENT < EXTENT / 2)
+            continue;
+        const double tilt = (i / 2 % 2 ? 17 : -17) * M_PI / 180;
+        ((float *)normals.texels)[at] = (float)(0.5 + 0.5 * sin(tilt));
+        ((float *)normals.texels)[at + 1] = 0.5f;
+        ((float *)normals.texels)[at + 2] = (float)(0.5 + 0.5 * cos(tilt));
+        ((float *)widths.texels)[at + 1] = 0.2f;
+        for (size_t k = 0; k < 3; k++)
+            ((float *)colours.texels)[at + k] = facets;
+    }
+    material.normal_map = scene_add_map(scene, normals);
+    material.metallic_roughness_map = scene_add_map(scene, widths);
+    material.base_colour_map = scene_add_map(scene, colours);
+    return partition_of(f, scene, &material, PARTITION_FITTED, 3, false);
+}
+
+static bool tells_apart(const moment_partition *partition, double tilt, double concentration) {
+    double members[2][MOMENT_MAXIMUM_BINS], shared = 0;
+    reference_moment_bins bins = moment_bins_of(partition, 1);
+    for (int i = 0; i < 2; i++) {
+        reference_plane_lobe lobe = {.place = {2 * sin((i ? tilt : -tilt) * M_PI / 360), 0},
+                                     .variance = 1 / concentration};
+        reference_bin_members(&bins, &lobe, members[i]);
+    }
+    for (uint32_t k = 0; k < partition->bins; k++)
+        shared += fmin(members[0][k], members[1][k]);
+    return shared < 0.01;
+}
+
+static void black_texels_decide_nothing(void **state) {
+    const moment_partition bright = partition_of_noise_and_facets(*state, 1),
+                           black = partition_of_noise_and_facets(*state, 1e-3f);
+    assert_true(tells_apart(&bright, 17, 1250));
+    assert_false(tells_apart(&black, 17, 1250));
+}
+
 /// Whether bins get colours of their own, for metal whose lobes alternate from texel to texel, and
 /// its colours every `pitch` texels.
 static bool colours_are_own(fixture *f, double tilt, const float widths[2], uint32_t pitch) {
@@ -346,6 +393,7 @@ int main(void) {
         cmocka_unit_test(directions_are_told_apart),
         cmocka_unit_test(widths_are_told_apart),
         cmocka_unit_test(as_many_bins_as_pay),
+        cmocka_unit_test(black_texels_decide_nothing),
         cmocka_unit_test(bins_have_colours_that_go_with_lobes),
         cmocka_unit_test(what_was_asked_for),
         cmocka_unit_test(ranges_hold_all_lobes),
