@@ -133,8 +133,8 @@ static bool gathers_moments(const filter_context *context, const device_material
 }
 
 /// The moments and the tables that materials need. `source`: what the irradiance comes from.
-static void build_broad_reflection(const filter_context *context, environment_light *light,
-                                   irradiance_source source) {
+static void build_moments_and_tables(const filter_context *context, environment_light *light,
+                                     irradiance_source source) {
     const device_scene *scene = context->scene;
     for (size_t i = 0; i < scene->scene->material_count; i++) {
         const device_material *material = &scene->materials[i];
@@ -226,7 +226,7 @@ static void build_maps(const filter_context *context, const environment_work *wo
                                        context->graph, source,
                                        passes_knob_value(context, &passes_knob_environment_window))
                                  : no_harmonics(context->graph);
-    build_broad_reflection(context, light, source);
+    build_moments_and_tables(context, light, source);
 }
 
 static lobe_result refuse_exact(const filter_context *context, const char *where,

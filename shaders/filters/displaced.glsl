@@ -39,7 +39,6 @@ const bool FACETS = RELIEF && MODEL == MODEL_MICROFACET;
 // Whether pixels may see single facets. Displaced triangles are drawn where these are.
 const bool NEAR = RELIEF && MAGNIFIED && !DISPLACED;
 
-const uint CHANNELS = COLOURED ? 3u : 1u;
 const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
 const uint FIRST_LAYERS = TRANSFER_FIRST_LAYERS(ORDER);
 const uint FURTHER_LAYERS = TRANSFER_FURTHER_LAYERS(ORDER);
@@ -50,13 +49,24 @@ const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;
 
-// Light towards a viewer, by the light's polynomials, of each channel: a white relief's (or the
+// Factors of the 16 polynomials, or their values.
+struct polynomials {
+    vec4 terms[4];
+};
+
+// Light towards a viewer, by the light's polynomials, of one channel: a white relief's (or the
 // coloured one's) at once, and what it gets from other facets as well. Sums over the map's
 // functions are written as sums over the polynomials that these consist of, so that a light only
 // needs its polynomials.
+struct channel_form {
+    polynomials direct;
+    polynomials indirect;
+};
+
+// Of a relief without colours, red alone. No loop goes over channels: drivers that do not unroll
+// it would keep all of this in memory.
 struct reflected_form {
-    float direct[3][16];
-    float indirect[3][16];
+    channel_form red, green, blue;
     float seen; // the area that the viewer sees of the facets
 };
 
@@ -72,7 +82,7 @@ struct near_facet {
 struct relief_footprint {
     vec3 viewer;
     reflected_form form; // over the area that is seen
-    float area[16];      // that is seen of the facets, by the viewer's polynomials
+    polynomials area;    // that is seen of the facets, by the viewer's polynomials
     vec3 colour;         // the mean diffuse colour, if it varies
     float visible;       // the area that the viewer sees, over the map's mean of it
     float seen;          // of the facets' area that faces the viewer
@@ -159,49 +169,76 @@ float entry_of_matrix(uint first, uint i, uint j) {
     return entry(first + row * (row + 1u) / 2u + column);
 }
 
-float function_factor(uint function, uint polynomial) {
-    return closure.basis.functions[4u * function + polynomial / 4u][polynomial % 4u];
+polynomials polynomials_from(float y[16]) {
+    polynomials result;
+    for (uint i = 0u; i < 4u; ++i)
+        result.terms[i] = vec4(y[4u * i], y[4u * i + 1u], y[4u * i + 2u], y[4u * i + 3u]);
+    return result;
+}
+
+polynomials polynomials_of(vec3 direction) {
+    float y[16];
+    transfer_polynomials(direction, y);
+    return polynomials_from(y);
+}
+
+polynomials integrals_of_polynomials() {
+    return polynomials_from(TRANSFER_INTEGRAL);
+}
+
+float product(polynomials a, polynomials b) {
+    return dot(a.terms[0], b.terms[0]) + dot(a.terms[1], b.terms[1]) +
+           dot(a.terms[2], b.terms[2]) + dot(a.terms[3], b.terms[3]);
+}
+
+polynomials scaled(polynomials a, float factor) {
+    for (uint i = 0u; i < 4u; ++i)
+        a.terms[i] *= factor;
+    return a;
+}
+
+polynomials sum_of(polynomials a, float of_a, polynomials b, float of_b) {
+    for (uint i = 0u; i < 4u; ++i)
+        a.terms[i] = of_a * a.terms[i] + of_b * b.terms[i];
+    return a;
+}
+
+polynomials function_of(uint k) {
+    polynomials result;
+    for (uint i = 0u; i < 4u; ++i)
+        result.terms[i] = closure.basis.functions[4u * k + i];
+    return result;
 }
 
 // Factors of the map's functions, as those of the polynomials.
-void in_polynomials(float functions[ORDER], out float polynomials[16]) {
-    for (uint i = 0u; i < 16u; ++i) {
-        polynomials[i] = 0.0;
-        for (uint k = 0u; k < ORDER; ++k)
-            polynomials[i] += function_factor(k, i) * functions[k];
-    }
-}
-
-float product(float a[16], float b[16]) {
-    float sum = 0.0;
-    for (uint i = 0u; i < 16u; ++i)
-        sum += a[i] * b[i];
+polynomials in_polynomials(float functions[ORDER]) {
+    polynomials sum = scaled(function_of(0u), functions[0]);
+    for (uint k = 1u; k < ORDER; ++k)
+        sum = sum_of(sum, 1.0, function_of(k), functions[k]);
     return sum;
 }
 
-float product_with(vec4 factors[4], float polynomials[16]) {
-    float sum = 0.0;
-    for (uint i = 0u; i < 16u; ++i)
-        sum += factors[i / 4u][i % 4u] * polynomials[i];
-    return sum;
+void in_functions(polynomials values, out float functions[ORDER]) {
+    for (uint k = 0u; k < ORDER; ++k)
+        functions[k] = product(function_of(k), values);
 }
 
 // An area that is seen from a direction, over the map's mean of it.
-float relative_area(float area, float polynomials[16]) {
-    return max(area / max(product_with(closure.visible, polynomials), 1e-6), LEAST_VISIBLE);
+float relative_area(float area, polynomials direction) {
+    return max(area / max(product(polynomials(closure.visible), direction), 1e-6), LEAST_VISIBLE);
 }
 
 // Adds the closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
-void close(inout reflected_form form, float viewer[16]) {
-    float cosine = INVERSE_PI * TRANSFER_COSINE * viewer[0];
-    for (uint i = 0u; i < 16u; ++i)
-        form.indirect[0][i] += cosine * closure.lacking[i / 4u][i % 4u];
-    form.indirect[0][0] += TRANSFER_COSINE * (INVERSE_PI * product_with(closure.lacking, viewer) -
-                                              INVERSE_PI * closure.lost * cosine);
+void close(inout channel_form form, polynomials viewer) {
+    polynomials lacking = polynomials(closure.lacking);
+    float cosine = INVERSE_PI * TRANSFER_COSINE * viewer.terms[0].x;
+    form.indirect = sum_of(form.indirect, 1.0, lacking, cosine);
+    form.indirect.terms[0].x +=
+        TRANSFER_COSINE *
+        (INVERSE_PI * product(lacking, viewer) - INVERSE_PI * closure.lost * cosine);
 }
 
-void gather_channel(inout reflected_form form, uint channel, float viewer[16],
-                    float functions[ORDER]) {
+channel_form gather_channel(uint channel, polynomials viewer, float functions[ORDER]) {
     uint first = channel == 0u ? 0u : 4u * (FIRST_LAYERS + (channel - 1u) * FURTHER_LAYERS);
     float direct[ORDER];
     for (uint i = 0u; i < ORDER; ++i) {
@@ -209,22 +246,21 @@ void gather_channel(inout reflected_form form, uint channel, float viewer[16],
         for (uint j = 0u; j < ORDER; ++j)
             direct[i] += entry_of_matrix(first, i, j) * functions[j];
     }
-    in_polynomials(direct, form.direct[channel]);
-    for (uint i = 0u; i < 16u; ++i)
-        form.indirect[channel][i] = 0.0;
+    channel_form form;
+    form.direct = in_polynomials(direct);
+    form.indirect.terms = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
         for (uint j = 0u; j < TRANSFER_INDIRECT; ++j)
-            form.indirect[channel][i] += entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer[j];
+            form.indirect.terms[0][i] +=
+                entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer.terms[0][j];
     drawn.colour[channel] = entry(first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
+    return form;
 }
 
 // What a white relief reflects of a white sky is the area that is seen of it. Of a few facets, the
 // area by the map's functions may be far from it, and then radiance would be, too.
-float white_light(reflected_form form) {
-    float sum = 0.0;
-    for (uint i = 0u; i < 16u; ++i)
-        sum += TRANSFER_INTEGRAL[i] * (form.direct[0][i] + form.indirect[0][i]);
-    return sum;
+float white_light(channel_form form) {
+    return product(integrals_of_polynomials(), sum_of(form.direct, 1.0, form.indirect, 1.0));
 }
 
 float visible_area(float functions[ORDER]) {
@@ -234,69 +270,74 @@ float visible_area(float functions[ORDER]) {
     return sum;
 }
 
-void in_functions(float polynomials[16], out float functions[ORDER]) {
-    for (uint k = 0u; k < ORDER; ++k) {
-        functions[k] = 0.0;
-        for (uint i = 0u; i < 16u; ++i)
-            functions[k] += function_factor(k, i) * polynomials[i];
-    }
+reflected_form no_form() {
+    vec4 none[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    channel_form channel = channel_form(polynomials(none), polynomials(none));
+    return reflected_form(channel, channel, channel, 1.0);
 }
 
-// `viewer`: a direction's polynomials, or a sum of such.
-reflected_form form_of(float viewer[16]) {
-    float functions[ORDER];
-    in_functions(viewer, functions);
+// `viewer`: the polynomials of a direction, or a sum of such, and the same in the map's functions.
+reflected_form form_of(polynomials viewer, float functions[ORDER]) {
     reflected_form form;
-    for (uint channel = 0u; channel < CHANNELS; ++channel)
-        gather_channel(form, channel, viewer, functions);
-    if (!COLOURED)
-        close(form, viewer);
-    form.seen = COLOURED ? visible_area(functions) : white_light(form);
+    form.red = gather_channel(0u, viewer, functions);
+    if (COLOURED) {
+        form.green = gather_channel(1u, viewer, functions);
+        form.blue = gather_channel(2u, viewer, functions);
+        form.seen = visible_area(functions);
+    } else {
+        close(form.red, viewer);
+        form.seen = white_light(form.red);
+    }
     return form;
 }
 
 // N is symmetric: half of it is what light the viewer's side gets from other facets, and half what
 // these get from the light that shines on it. To viewers everywhere, a facet shows the first alone,
 // 1^T b o^T, which is 2 N less 1^T o b^T, a multiple of 1^T C.
-void leave_what_arrives(inout reflected_form form, uint channel) {
-    float indirect = 0.0, direct = 0.0;
-    for (uint i = 0u; i < 16u; ++i)
-        indirect += TRANSFER_INTEGRAL[i] * form.indirect[channel][i];
-    for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
-        direct += TRANSFER_INTEGRAL[i] * form.direct[channel][i];
+void leave_what_arrives(inout channel_form form) {
+    polynomials integrals = integrals_of_polynomials();
+    float indirect = product(integrals, form.indirect);
+    float direct = dot(integrals.terms[0], form.direct.terms[0]); // of the smooth ones
     float part = 1.0 / max(direct, LEAST_LIT);
-    for (uint i = 0u; i < 16u; ++i)
-        form.indirect[channel][i] *= 1.0 + max(part * direct, 0.0);
-    for (uint i = 0u; i < TRANSFER_INDIRECT && direct > 0.0; ++i)
-        form.indirect[channel][i] -= part * indirect * form.direct[channel][i];
+    form.indirect = scaled(form.indirect, 1.0 + max(part * direct, 0.0));
+    if (direct > 0.0)
+        form.indirect.terms[0] -= part * indirect * form.direct.terms[0];
+}
+
+void light_evenly(inout channel_form form, float lacking, float colour) {
+    form.indirect.terms[0].x += lacking * INVERSE_PI * TRANSFER_COSINE * colour * colour;
 }
 
 // To viewers everywhere: the mean over their cosines.
 reflected_form form_of_all() {
-    float viewers[16];
-    for (uint i = 0u; i < 16u; ++i)
-        viewers[i] = INVERSE_PI * TRANSFER_INTEGRAL[i];
-    reflected_form form = form_of(viewers);
-    for (uint channel = 0u; channel < CHANNELS; ++channel)
-        leave_what_arrives(form, channel);
+    float functions[ORDER];
+    for (uint k = 0u; k < ORDER; ++k)
+        functions[k] = INVERSE_PI * closure.basis.integrals[k / 4u][k % 4u];
+    reflected_form form = form_of(scaled(integrals_of_polynomials(), INVERSE_PI), functions);
     float lacking = max(LEAST_LIT - form.seen, 0.0);
-    for (uint channel = 0u; channel < CHANNELS; ++channel)
-        form.indirect[channel][0] +=
-            lacking * INVERSE_PI * TRANSFER_COSINE *
-            (COLOURED ? drawn.colour[channel] * drawn.colour[channel] : 1.0);
+    leave_what_arrives(form.red);
+    light_evenly(form.red, lacking, COLOURED ? drawn.colour.r : 1.0);
+    if (COLOURED) {
+        leave_what_arrives(form.green);
+        light_evenly(form.green, lacking, drawn.colour.g);
+        leave_what_arrives(form.blue);
+        light_evenly(form.blue, lacking, drawn.colour.b);
+    }
     form.seen += lacking;
     return form;
 }
 
-// drawn.form: so much of what it is, of light at once and of light between facets, and of another.
+// So much of a form, of light at once and of light between facets, and of another.
+void mix_channel(inout channel_form form, vec2 factors, channel_form other, vec2 of_other) {
+    form.direct = sum_of(form.direct, factors.x, other.direct, of_other.x);
+    form.indirect = sum_of(form.indirect, factors.y, other.indirect, of_other.y);
+}
+
 void mix_form(vec2 factors, reflected_form other, vec2 of_other) {
-    for (uint channel = 0u; channel < CHANNELS; ++channel) {
-        for (uint i = 0u; i < 16u; ++i) {
-            drawn.form.direct[channel][i] = factors.x * drawn.form.direct[channel][i] +
-                                            of_other.x * other.direct[channel][i];
-            drawn.form.indirect[channel][i] = factors.y * drawn.form.indirect[channel][i] +
-                                              of_other.y * other.indirect[channel][i];
-        }
+    mix_channel(drawn.form.red, factors, other.red, of_other);
+    if (COLOURED) {
+        mix_channel(drawn.form.green, factors, other.green, of_other);
+        mix_channel(drawn.form.blue, factors, other.blue, of_other);
     }
 }
 
@@ -326,16 +367,18 @@ void gather_relief(surface_point surface, bool lit) {
                                                          surface.coordinates, 0.0);
     }
     fetch_transfer(at);
-    float viewer[16];
-    transfer_polynomials(drawn.viewer, viewer);
-    drawn.form = form_of(viewer);
+    polynomials viewer = polynomials_of(drawn.viewer);
+    float functions[ORDER];
+    in_functions(viewer, functions);
+    drawn.form = no_form();
+    if (!NEAR || drawn.near.share < 1.0)
+        drawn.form = form_of(viewer, functions);
     if (FACETS) {
-        float functions[ORDER], area[ORDER];
-        in_functions(viewer, functions);
+        float area[ORDER];
         for (uint k = 0u; k < ORDER; ++k)
             area[k] = entry(TRANSFER_ENTRIES(ORDER) + k);
         drawn.visible = relative_area(visible_area(functions), viewer);
-        in_polynomials(area, drawn.area);
+        drawn.area = in_polynomials(area);
     }
     divide_form(lit);
 }
@@ -352,22 +395,21 @@ struct reflected_light {
     vec3 indirect;
 };
 
-// Of light of each channel, by its polynomials.
-void reflect_channel(inout reflected_light reflected, uint channel, float light[16]) {
-    uint of_map = COLOURED ? channel : 0u;
-    reflected.direct[channel] = product(drawn.form.direct[of_map], light);
-    reflected.indirect[channel] = product(drawn.form.indirect[of_map], light);
+// Of light whose channels have these products with the polynomials.
+reflected_light reflect_channels(polynomials red, polynomials green, polynomials blue) {
+    reflected_form form = drawn.form;
+    if (!COLOURED)
+        form.green = form.blue = form.red;
+    return reflected_light(vec3(product(form.red.direct, red), product(form.green.direct, green),
+                                product(form.blue.direct, blue)),
+                           vec3(product(form.red.indirect, red),
+                                product(form.green.indirect, green),
+                                product(form.blue.indirect, blue)));
 }
 
 reflected_light reflect_light(vec3 incoming) {
-    float light[16];
-    transfer_polynomials(incoming, light);
-    reflected_light reflected;
-    reflect_channel(reflected, 0u, light);
-    reflected.direct = reflected.direct.rrr;
-    reflected.indirect = reflected.indirect.rrr;
-    for (uint channel = 1u; channel < CHANNELS; ++channel)
-        reflect_channel(reflected, channel, light);
+    polynomials light = polynomials_of(incoming);
+    reflected_light reflected = reflect_channels(light, light, light);
     // Where facets are few and steep, the functions overshoot: without a bound by tens of times.
     reflected.direct = min(reflected.direct, vec3(INVERSE_PI));
     reflected.indirect = min(reflected.indirect, vec3(INVERSE_PI));
@@ -413,54 +455,55 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
 // ---------------------------------------------------------------------------------------------
 // Microfacets of the facets
 
-plane_bin facet_bin(surface_point surface, map_area area, uint index, float width) {
+// The facets whose normals are in a bin, without their microfacets.
+struct facet_group {
+    float size;  // their area, over that of the carrier
+    vec2 mean;   // of the places of their normals
+    vec3 places; // their covariance
+};
+
+facet_group facets_of_bin(surface_point surface, map_area area, uint index) {
     vec4 place = filtered_layer(facet_map, area, 2u * index);
     vec4 spread = filtered_layer(facet_map, area, 2u * index + 1u);
     float scale = 1.0 / max(place.x, 1e-6);
     vec2 mean = place.yz * scale;
+    return facet_group(place.x, facet_bin_centre(index, closure.radius) + mean,
+                       covariance_of(mean, spread.xyz * scale) + surface.curvature);
+}
+
+normal_spread normals_of(facet_group facets) {
+    return normal_spread_of(facets.mean, facets.places + second_moments_of(facets.mean));
+}
+
+// Of the facets' microfacets.
+plane_bin bin_of(facet_group facets, float width) {
     plane_bin bin;
-    bin.mass = place.x;
-    bin.mean = facet_bin_centre(index, closure.radius) + mean;
+    // The lobes' own mass, microfacets' area.
+    bin.mass = facets.size * plane_mass(MODEL, distribution_kind(), width);
+    bin.mean = facets.mean;
     bin.axis = direction_from_plane(bin.mean);
     bin.variance = bin.mean_variance = plane_variance(distribution_kind(), width);
     bin.sharpness = inversesqrt(bin.variance);
-    bin.places = covariance_of(mean, spread.xyz * scale) + surface.curvature;
+    bin.places = facets.places;
     bin.spread = 0.5 * (bin.places.x + bin.places.y);
     vec3 base = bin.variance * plane_distortion(bin.mean);
     bin.covariance = bin.places + base;
-    // The lobes' own mass, microfacets' area.
-    bin.mass *= plane_mass(MODEL, distribution_kind(), width);
     make_terms(bin, bin.places, base, 0.0);
     keep_shape(bin, 0.0);
     return bin;
 }
 
-// Facets without their microfacets.
-struct facet_areas {
-    normal_spread normals[FACET_BINS];
-    float sizes[FACET_BINS]; // over that of the carrier
-};
-
-void take_area(inout facet_areas areas, uint index, plane_bin bin, float width) {
-    areas.normals[index] = normal_spread_of(bin.mean, bin.places + second_moments_of(bin.mean));
-    areas.sizes[index] = bin.mass / plane_mass(MODEL, distribution_kind(), width);
-}
-
 // What faces a direction, hidden or not, as it appears from there.
-float facing_area(facet_areas areas, vec3 direction) {
-    float sum = 0.0;
-    for (uint k = 0u; k < FACET_BINS; ++k)
-        if (areas.sizes[k] > 0.0)
-            sum += areas.sizes[k] * mean_facing_cosine(areas.normals[k], direction);
-    return sum;
+float facing_area(facet_group facets, vec3 direction) {
+    return facets.size > 0.0 ? facets.size * mean_facing_cosine(normals_of(facets), direction)
+                             : 0.0;
 }
 
 // The part of the area that faces a direction that is also seen from there: the one by the facets'
 // normals alone, the other by their horizons.
 float seen_part(float facing, vec3 direction) {
-    float polynomials[16];
-    transfer_polynomials(direction, polynomials);
-    float seen = direction.z * relative_area(product(drawn.area, polynomials), polynomials);
+    polynomials values = polynomials_of(direction);
+    float seen = direction.z * relative_area(product(drawn.area, values), values);
     return clamp(seen / max(facing, 1e-6), 0.0, 1.0);
 }
 
@@ -472,22 +515,27 @@ float seen_by_both(float first, float second) {
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
     map_area area = transfer_area(surface);
-    facet_areas areas;
-    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
+    float facing_viewer = 0.0, facing_lights[4];
+    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
         drawn.lights[i] = no_light();
+        facing_lights[i] = 0.0;
+    }
     for (uint k = 0u; k < FACET_BINS; ++k) {
-        plane_bin bin = facet_bin(surface, area, k, fetched.base.width);
-        take_area(areas, k, bin, fetched.base.width);
-        if (areas.sizes[k] <= 1e-4)
+        facet_group facets = facets_of_bin(surface, area, k);
+        facing_viewer += facing_area(facets, drawn.viewer);
+        for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
+            facing_lights[i] += facing_area(facets, incoming[i]);
+        if (facets.size <= 1e-4)
             continue;
+        plane_bin bin = bin_of(facets, fetched.base.width);
         for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
             vec3 halfway = half_vector(incoming[i], surface.outgoing);
             add_bin_to_light(drawn.lights[i], bin, halfway, plane_from_direction(halfway));
         }
     }
-    drawn.seen = seen_part(facing_area(areas, drawn.viewer), drawn.viewer);
+    drawn.seen = seen_part(facing_viewer, drawn.viewer);
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
-        drawn.shone_on[i] = seen_part(facing_area(areas, incoming[i]), incoming[i]);
+        drawn.shone_on[i] = seen_part(facing_lights[i], incoming[i]);
 }
 
 // Of facets that are seen and lit by parts, over the area that the viewer sees.
@@ -529,38 +577,57 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 
 #ifdef ENVIRONMENT
 // The environment's integrals with the polynomials, of each channel.
-void light_of_environment(surface_point surface, out float light[3][16]) {
+void light_of_environment(surface_point surface, out polynomials light[3]) {
     mat3 tangent_from_environment = tangent_from_environment_of(surface);
     hemisphere_moments moments = hemisphere_moments_about(
         hemisphere_moments_map, transpose(tangent_from_environment)[2]);
-    transfer_polynomials_of_light(moments.red, tangent_from_environment, light[0]);
-    transfer_polynomials_of_light(moments.green, tangent_from_environment, light[1]);
-    transfer_polynomials_of_light(moments.blue, tangent_from_environment, light[2]);
-    for (int channel = 0; channel < 3; ++channel)
-        for (int k = 0; k < 16; ++k)
-            light[channel][k] *= environment.intensity;
+    float red[16], green[16], blue[16];
+    transfer_polynomials_of_light(moments.red, tangent_from_environment, red);
+    transfer_polynomials_of_light(moments.green, tangent_from_environment, green);
+    transfer_polynomials_of_light(moments.blue, tangent_from_environment, blue);
+    light = polynomials[3](scaled(polynomials_from(red), environment.intensity),
+                           scaled(polynomials_from(green), environment.intensity),
+                           scaled(polynomials_from(blue), environment.intensity));
+}
+
+float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
+    float sum = 0.0;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        sum += facing_area(groups[k], direction);
+    return sum;
+}
+
+// A white facet reflects no more than the light of the whole hemisphere over pi, nor gets more from
+// others. Both parts overshoot, against each other in a white furnace: only their sum is bounded.
+// The light is that of the integrals' own sum, which lacks what is close to the horizon.
+vec3 most_of_environment(polynomials light[3]) {
+    polynomials integrals = integrals_of_polynomials();
+    return 2.0 * INVERSE_PI *
+           max(vec3(product(light[0], integrals), product(light[1], integrals),
+                    product(light[2], integrals)),
+               0.0);
 }
 
 // Each bin by the area of it that faces the viewer, masked, and shadowed in the direction that its
 // mean facet mirrors.
 vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
     map_area area = transfer_area(surface);
-    float width = fetched.base.width;
-    facet_areas areas;
+    facet_group groups[FACET_BINS];
     for (uint k = 0u; k < FACET_BINS; ++k)
-        take_area(areas, k, facet_bin(surface, area, k, width), width);
-    float seen = seen_part(facing_area(areas, drawn.viewer), drawn.viewer);
+        groups[k] = facets_of_bin(surface, area, k);
+    float seen = seen_part(facing_area(groups, drawn.viewer), drawn.viewer);
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k) {
-        float share;
-        vec3 normal = facing_normals(areas.normals[k], drawn.viewer, share).mean;
-        if (areas.sizes[k] * share <= 1e-4)
+        float share, size = groups[k].size;
+        normal_spread normals = normals_of(groups[k]);
+        vec3 normal = facing_normals(normals, drawn.viewer, share).mean;
+        if (size * share <= 1e-4)
             continue;
         vec3 incoming = reflect(-drawn.viewer, normalize(normal));
-        float lit = seen_part(facing_area(areas, incoming), incoming);
-        float facing = mean_facing_cosine(areas.normals[k], drawn.viewer) / max(share, 1e-3);
-        sum += (areas.sizes[k] * facing * seen_by_both(seen, lit)) *
-               reflect_bin(surface, facet_bin(surface, area, k, width), fetched.base.specular);
+        float lit = seen_part(facing_area(groups, incoming), incoming);
+        float facing = mean_facing_cosine(normals, drawn.viewer) / max(share, 1e-3);
+        sum += (size * facing * seen_by_both(seen, lit)) *
+               reflect_bin(surface, bin_of(groups[k], fetched.base.width), fetched.base.specular);
     }
     return sum / (drawn.viewer.z * drawn.visible);
 }
@@ -578,16 +645,15 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
         return reflect_base_material(surface, base, fetched.mean_normal);
     base_material white = base;
     white.diffuse = vec3(1.0);
-    float light[3][16];
+    polynomials light[3];
     light_of_environment(surface, light);
     gather_relief(surface, true);
-    reflected_light reflected;
-    for (uint channel = 0u; channel < 3u; ++channel)
-        reflect_channel(reflected, channel, light[channel]);
+    reflected_light reflected = reflect_channels(light[0], light[1], light[2]);
     vec3 lobes = FACETS ? reflect_facets_of_relief(fetched, surface)
                         : reflect_base_specular(surface, base);
     if (NEAR && drawn.near.share > 0.0)
         lobes = mix(lobes, mirrored_by_near_facet(surface), drawn.near.share);
-    return lobes + diffuse_radiance(base, let_through(surface, white), surface, reflected);
+    vec3 diffuse = diffuse_radiance(base, let_through(surface, white), surface, reflected);
+    return lobes + min(diffuse, most_of_environment(light));
 }
 #endif

@@ -41,13 +41,17 @@ ivec2 first_period(ivec2 quad) {
 // Quads and facets
 
 // The heights of a quad's corners: of its vertex, the next along x, along y, and along both.
-vec4 quad_heights(ivec2 quad) {
+// `first`: the quad, in the first period.
+vec4 corner_heights(ivec2 first) {
     ivec2 size = relief_size();
-    ivec2 first = first_period(quad);
     ivec2 next = ivec2(first.x + 1 < size.x ? first.x + 1 : 0,
                        first.y + 1 < size.y ? first.y + 1 : 0);
     return vec4(heights[first.y * size.x + first.x], heights[first.y * size.x + next.x],
                 heights[next.y * size.x + first.x], heights[next.y * size.x + next.x]);
+}
+
+vec4 quad_heights(ivec2 quad) {
+    return corner_heights(first_period(quad));
 }
 
 // A quad's diagonal from its vertex divides it into facets: lower, where x is the larger, and
@@ -81,12 +85,16 @@ float inverse_of(float x) {
     return x < 0.0 ? 1.0 / min(x, -1e-12) : 1.0 / max(x, 1e-12);
 }
 
+// The quad is in the period of the node before, or in one beside it: divisions would take most of
+// a step's time.
 void find_node(inout relief_walk walk) {
-    ivec2 local = first_period(walk.quad);
+    ivec2 size = relief_size();
+    walk.tile += mix(ivec2(0), size, greaterThanEqual(walk.quad, walk.tile + size)) -
+                 mix(ivec2(0), size, lessThan(walk.quad, walk.tile));
+    ivec2 local = walk.quad - walk.tile;
     int shift = 2 * walk.level;
-    walk.tile = walk.quad - local;
     walk.first = walk.tile + ((local >> shift) << shift);
-    walk.last = min(walk.first + (1 << shift), walk.tile + relief_size());
+    walk.last = min(walk.first + (1 << shift), walk.tile + size);
     vec2 sides = vec2(walk.direction.x < 0.0 ? walk.first.x : walk.last.x,
                       walk.direction.y < 0.0 ? walk.first.y : walk.last.y);
     vec2 exits = (sides - walk.origin.xy) * walk.inverse;
@@ -94,13 +102,15 @@ void find_node(inout relief_walk walk) {
     walk.leave = max(min(exits.x, exits.y), walk.place);
 }
 
-relief_walk start_walk(vec3 origin, vec3 direction) {
+// At the top level, or at level 0 in the middle of facets.
+relief_walk start_walk(vec3 origin, vec3 direction, int level) {
     relief_walk walk;
     walk.origin = origin;
     walk.direction = direction;
     walk.inverse = vec2(inverse_of(direction.x), inverse_of(direction.y));
     walk.quad = ivec2(floor(origin.xy));
-    walk.level = 0;
+    walk.tile = walk.quad - first_period(walk.quad);
+    walk.level = level;
     walk.place = 0.0;
     find_node(walk);
     return walk;
@@ -112,13 +122,13 @@ float node_maximum(relief_walk walk) {
     return heights[level.offset + uint(node.y) * level.width + uint(node.x)];
 }
 
-void descend(inout relief_walk walk) {
-    --walk.level;
-    find_node(walk);
+// In the first period.
+ivec2 local_quad(relief_walk walk) {
+    return walk.quad - walk.tile;
 }
 
 // To the node behind the one that the walk leaves; a level up where that is also the end of the
-// level's node.
+// level's node. find_node finds it.
 void advance(inout relief_walk walk) {
     walk.place = walk.leave;
     vec2 at = walk.origin.xy + walk.place * walk.direction.xy;
@@ -138,7 +148,6 @@ void advance(inout relief_walk walk) {
     bool ends = side == size || (side & ((1 << shift) - 1)) == 0;
     if (ends && walk.level < int(relief.last_level))
         ++walk.level;
-    find_node(walk);
 }
 
 // Where the walk through a quad crosses its diagonal, within the quad.
@@ -182,7 +191,7 @@ bool meets_facet(relief_walk walk, vec4 corners, bool upper, float from, float t
 }
 
 bool meets_quad(relief_walk walk, out float place, out bool upper) {
-    vec4 corners = quad_heights(walk.quad);
+    vec4 corners = corner_heights(local_quad(walk));
     float crossing = crossing_of_diagonal(walk);
     upper = is_upper(walk, 0.5 * (walk.place + crossing));
     if (meets_facet(walk, corners, upper, walk.place, crossing, place))
@@ -195,34 +204,36 @@ relief_hit hit_at(relief_walk walk, float place, bool upper) {
     relief_hit hit;
     hit.found = true;
     hit.upper = upper;
-    vec4 corners = quad_heights(walk.quad);
+    vec4 corners = corner_heights(local_quad(walk));
     vec2 slope = facet_slope(corners, upper);
     vec2 inside = clamp(walk.origin.xy + place * walk.direction.xy - vec2(walk.quad), 0.0, 1.0);
-    hit.quad = first_period(walk.quad);
+    hit.quad = local_quad(walk);
     hit.position = vec3(vec2(hit.quad) + inside, corners.x + dot(slope, inside));
     hit.normal = facet_normal(slope);
     return hit;
 }
 
 relief_hit trace_relief(vec3 origin, vec3 direction) {
-    relief_walk walk = start_walk(origin, direction);
+    int level = origin.z > largest_height() ? int(relief.last_level) : 0;
+    relief_walk walk = start_walk(origin, direction, level);
     relief_hit none;
     none.found = false;
     for (int i = 0; i < WALK_STEPS; ++i) {
         float lowest = walk.origin.z + walk.direction.z *
                                            (walk.direction.z < 0.0 ? walk.leave : walk.place);
-        float place;
-        bool upper;
         if (walk.level > 0 && lowest <= node_maximum(walk)) {
-            descend(walk);
-            continue;
+            --walk.level;
+        } else {
+            float place;
+            bool upper;
+            if (walk.level == 0 && meets_quad(walk, place, upper))
+                return hit_at(walk, place, upper);
+            if (walk.direction.z >= 0.0 &&
+                walk.origin.z + walk.leave * walk.direction.z >= largest_height())
+                return none;
+            advance(walk);
         }
-        if (walk.level == 0 && meets_quad(walk, place, upper))
-            return hit_at(walk, place, upper);
-        if (walk.direction.z >= 0.0 &&
-            walk.origin.z + walk.leave * walk.direction.z >= largest_height())
-            return none;
-        advance(walk);
+        find_node(walk);
     }
     return none;
 }

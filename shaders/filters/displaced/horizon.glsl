@@ -15,7 +15,7 @@ void raise(inout float slope, relief_walk walk, vec4 corners, bool upper, float 
 }
 
 void raise_by_quad(inout float slope, relief_walk walk, float unit) {
-    vec4 corners = quad_heights(walk.quad);
+    vec4 corners = corner_heights(local_quad(walk));
     float crossing = crossing_of_diagonal(walk);
     bool first = is_upper(walk, 0.5 * (walk.place + crossing));
     raise(slope, walk, corners, first, crossing, unit);
@@ -27,19 +27,20 @@ void raise_by_quad(inout float slope, relief_walk walk, float unit) {
 // What raises the horizon by less than `least_rise`, as a slope, is not looked for, nor what is
 // further away than `reach`.
 float horizon(vec3 origin, vec2 along, float unit, float least_rise, float reach, float slope) {
-    relief_walk walk = start_walk(origin, vec3(along, 0.0));
+    relief_walk walk = start_walk(origin, vec3(along, 0.0), 0);
     float rise = unit * (largest_height() - origin.z);
     for (int i = 0; i < WALK_STEPS; ++i) {
         float least = (slope + least_rise) * walk.place;
         if (rise <= least || walk.place > reach)
             break;
         if (walk.level > 0 && unit * (node_maximum(walk) - origin.z) > least) {
-            descend(walk);
-            continue;
+            --walk.level;
+        } else {
+            if (walk.level == 0)
+                raise_by_quad(slope, walk, unit);
+            advance(walk);
         }
-        if (walk.level == 0)
-            raise_by_quad(slope, walk, unit);
-        advance(walk);
+        find_node(walk);
     }
     return slope;
 }
