@@ -37,10 +37,11 @@ typedef struct engine_graph_resource {
     bool is_image;
     lobe_format format;
     uint32_t width, height, layers, levels, samples;
-    uint64_t size; ///< buffers: bytes
-    VkFlags usage; ///< of the image or buffer, united over all passes
-    bool cube;     ///< some shader reads it as a cube
-    bool shared;   ///< other graphs may have its content
+    uint64_t size;  ///< buffers: bytes
+    VkFlags usage;  ///< of the image or buffer, united over all passes
+    bool cube;      ///< some shader reads it as a cube
+    bool shared;    ///< other graphs may have its content
+    bool permanent; ///< kept as long as the graph
     const lobe_texture *texture;
     const lobe_buffer *buffer;
     const lobe_vulkan_image *host;         ///< copy in the arena

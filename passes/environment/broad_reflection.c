@@ -153,7 +153,8 @@ lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distr
                                                           .height = BROAD_REFLECTION_SIZE,
                                                           .layers = BROAD_REFLECTION_LAYERS,
                                                           .retained = true,
-                                                          .shared = true});
+                                                          .shared = true,
+                                                          .permanent = true});
     const struct broad_harmonics known = known_harmonics();
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "broad_reflection");
     lobe_pass_read(pass, &(lobe_binding){.name = "harmonics_block",

@@ -13,7 +13,7 @@ extern const lobe_sampler passes_broad_reflection_sampler;
 /// shaders/interface/environment/broad_reflection.h says what it holds,
 /// shaders/environment/broad_reflection.glsl looks it up. `masking` is as in
 /// passes_directional_albedo. `probes` [1, 8]: round lobes that may represent an elongated one. It
-/// depends only on these, so the pass runs only in the first frame. Call it at most once per frame
+/// depends only on these, so the pass runs only once. Call it at most once per frame
 /// for each pair of distributions.
 lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distribution,
                                       lobe_distribution masking, uint32_t probes);

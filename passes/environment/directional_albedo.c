@@ -19,7 +19,8 @@ lobe_resource passes_directional_albedo(lobe_graph *graph, lobe_distribution dis
                                                           .width = DIRECTIONAL_ALBEDO_SIZE,
                                                           .height = DIRECTIONAL_ALBEDO_SIZE,
                                                           .retained = true,
-                                                          .shared = true});
+                                                          .shared = true,
+                                                          .permanent = true});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "directional_albedo");
     table = lobe_pass_write(pass, &(lobe_binding){.name = "directional_albedo", .resource = table});
     const lobe_specialisation specialisation[] = {

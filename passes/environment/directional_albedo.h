@@ -12,7 +12,7 @@ extern const lobe_sampler passes_directional_albedo_sampler;
 /// and roughness. shaders/environment/directional_albedo.comp describes its contents, and
 /// shaders/lib/microfacet/directional_albedo.glsl looks it up.
 /// `masking` says whose masking and shadowing it has, usually its own. It depends only on these
-/// two, so the pass runs only in the first frame. Call it at most once per frame for each pair.
+/// two, so the pass runs only once. Call it at most once per frame for each pair.
 lobe_resource passes_directional_albedo(lobe_graph *graph, lobe_distribution distribution,
                                         lobe_distribution masking);
 

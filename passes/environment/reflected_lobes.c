@@ -21,7 +21,8 @@ lobe_resource passes_reflected_lobes(lobe_graph *graph, lobe_distribution distri
                                                           .height = REFLECTED_LOBES_SIZE,
                                                           .layers = REFLECTED_LOBES,
                                                           .retained = true,
-                                                          .shared = true});
+                                                          .shared = true,
+                                                          .permanent = true});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "reflected_lobes");
     table = lobe_pass_write(pass, &(lobe_binding){.name = "reflected_lobes", .resource = table});
     const lobe_specialisation specialisation[] = {

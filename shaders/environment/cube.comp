@@ -3,7 +3,7 @@
 
 // Builds the six faces of an environment from its image. Each texel is the mean radiance over its
 // solid angle, from subsamples at most a quarter of an image texel apart. A sun of two texels keeps
-// its energy to 2e-4, next to the poles to 5e-3.
+// its energy to 1 %, and to 0.15 % on average.
 
 #include "interface/environment/environment.h"
 #include "lib/light/cube_texel.glsl"
@@ -69,7 +69,17 @@ vec3 radiance(int face, vec2 point, float size) {
                : radiance_on_face(face, point);
 }
 
-const int LEAST_SUBSAMPLES = 4, POLAR_SUBSAMPLES = 6;
+const int LEAST_SUBSAMPLES = 4;
+const float MOST_POLAR_SUBSAMPLES = 6.0;
+
+// How many times as narrow as elsewhere the transitions between rows are around a texel. It changes
+// gradually: where the numbers of subsamples of neighbouring texels differ, the energy of what lies
+// between them is less accurate.
+float narrowness_of_transitions(float sine) {
+    float rows = asin(min(sine, 1.0)) * INVERSE_PI * float(constants.face_texels);
+    float reach = 3.0 / float(constants.size) * INVERSE_PI * float(constants.face_texels);
+    return clamp(1.0 / (TRANSITION_GROWTH * max(rows - reach, 1.0)), 1.0, MOST_POLAR_SUBSAMPLES);
+}
 
 // Seen from the centre, texels shrink towards the edges of a face, and need fewer subsamples of
 // latitude and longitude there; next to the poles, where rows have narrow transitions, they need
@@ -81,9 +91,7 @@ int subsample_count(int face, vec2 centre) {
     vec3 direction = cube_direction(face, centre);
     float shrinking = inversesqrt(dot(direction, direction));
     count = max(int(ceil(float(count) * shrinking)), LEAST_SUBSAMPLES);
-    float polar = 0.5 / TRANSITION_GROWTH * PI / float(constants.face_texels) +
-                  1.5 / float(constants.size);
-    return length(direction.xz) * shrinking < polar ? POLAR_SUBSAMPLES * count : count;
+    return int(ceil(float(count) * narrowness_of_transitions(length(direction.xz) * shrinking)));
 }
 
 // Points of a texel in [0, 1]^2: a grid where the image has an equally fine one, otherwise a

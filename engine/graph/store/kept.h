@@ -45,6 +45,7 @@ typedef struct engine_graph_retained {
     bool declared;          ///< in the current frame
     bool lent;              ///< other graphs may find it or hold it: nobody writes it
     bool separate;          ///< was invalidated: this graph's own from then on
+    bool permanent;         ///< kept as long as the graph
     engine_graph_object object;
     engine_allocation allocation;
     engine_shared *shared; ///< how they find it; NULL: never

@@ -51,7 +51,7 @@ void engine_graph_free_retained(lobe_graph *graph) {
 lobe_result engine_graph_release_retained(lobe_graph *graph) {
     for (engine_graph_retained **link = &graph->kept.retained; *link;) {
         engine_graph_retained *kept = *link;
-        if (kept->declared) {
+        if (kept->declared || kept->permanent) {
             link = &kept->next;
             continue;
         }
@@ -109,6 +109,8 @@ lobe_result engine_graph_check_retained(lobe_graph *graph) {
 
 /// The content can still be read, but its stamp no longer equals what any pass would write.
 static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
+    if (kept->permanent)
+        return;
     kept->separate = true;
     for (uint32_t i = 0; i < kept->subresource_count; i++)
         if (kept->stamps[i] != ENGINE_STAMP_NONE)
@@ -147,7 +149,8 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
         .subresource_count = subresources,
         .stamps = lobe_allocate(allocator, subresources, sizeof *kept->stamps),
         .layouts = lobe_allocate(allocator, subresources, sizeof *kept->layouts),
-        .declared = true};
+        .declared = true,
+        .permanent = resource->permanent};
     if (kept->name && kept->stamps && kept->layouts)
         return kept;
     lobe_release(kept->name);

@@ -71,7 +71,7 @@ LOBE_API void lobe_graph_destroy(lobe_graph **graph);
 
 /// Starts a new frame: drops the passes of the last one, and waits for it if it is still running
 /// (see lobe_graph_set_frames_in_flight). Retained resources that the new frame does not declare
-/// again are freed when it is compiled.
+/// again are freed when it is compiled, except for permanent ones.
 LOBE_API void lobe_graph_begin(lobe_graph *graph);
 
 // ---------------------------------------------------------------------------------------------
@@ -93,6 +93,9 @@ typedef struct lobe_image_description {
     /// once, from when the first of them was submitted. A frame that writes the image must write
     /// all of it that the frame reads: content of earlier frames may be lost then.
     bool shared;
+    /// Of a retained image: a table that depends on nothing outside the passes that write it. It is
+    /// kept as long as the graph, also while frames do not declare it, and never invalidated.
+    bool permanent;
 } lobe_image_description;
 
 typedef struct lobe_buffer_description {
@@ -396,8 +399,9 @@ LOBE_API lobe_result lobe_graph_wait(lobe_graph *graph);
 /// NULL.
 LOBE_API const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
-/// Marks all retained content as out of date, so that the passes that write it run again. The
-/// memory stays, unless other graphs use it too; from then on they do not.
+/// Marks all retained content as out of date, so that the passes that write it run again, except
+/// for permanent images. The memory stays, unless other graphs use it too; from then on they do
+/// not.
 LOBE_API void lobe_graph_invalidate(lobe_graph *graph);
 /// The same for all retained resources whose names do not begin with `prefix`.
 LOBE_API void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);

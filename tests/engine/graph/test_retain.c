@@ -134,6 +134,38 @@ static void what_is_not_declared_again_is_freed(void **state) {
     assert_states(fixture, LOBE_PASS_CULLED, LOBE_PASS_SKIPPED, LOBE_PASS_SKIPPED, LOBE_PASS_RUN);
 }
 
+/// A table, which a pass fills, if `declared`; and a buffer, so that the frame has an output.
+static void run_table(graph_fixture *fixture, bool declared) {
+    const chain frame = {.source = {0, 5}};
+    lobe_resource result = declare_chain(fixture, &frame);
+    (void)result;
+    if (declared) {
+        lobe_resource table = lobe_graph_image(
+            fixture->graph, &(lobe_image_description){.name = "table",
+                                                      .format = LOBE_FORMAT_R32_FLOAT,
+                                                      .width = 4,
+                                                      .height = 4,
+                                                      .retained = true,
+                                                      .permanent = true});
+        table =
+            lobe_pass_fill(lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill table"),
+                           table, (lobe_range){0}, (float[4]){3});
+        lobe_graph_output(fixture->graph, table);
+    }
+    graph_fixture_execute(fixture);
+}
+
+static void permanent_images_are_made_once(void **state) {
+    graph_fixture *fixture = *state;
+    run_table(fixture, true);
+    assert_int_equal(graph_fixture_state(fixture, "fill table"), LOBE_PASS_RUN);
+    run_table(fixture, false);
+    lobe_graph_invalidate(fixture->graph);
+    run_table(fixture, true);
+    assert_int_equal(graph_fixture_state(fixture, "fill table"), LOBE_PASS_SKIPPED);
+    assert_int_equal(graph_fixture_state(fixture, "first"), LOBE_PASS_RUN);
+}
+
 static void another_size_means_another_resource(void **state) {
     graph_fixture *fixture = *state;
     for (int i = 0; i < 4; i++) {
@@ -369,6 +401,7 @@ int main(void) {
         TEST(invalidation_runs_all_again),
         TEST(invalidation_may_spare_some),
         TEST(what_is_not_declared_again_is_freed),
+        TEST(permanent_images_are_made_once),
         TEST(another_size_means_another_resource),
         TEST(imports_count_by_their_content),
         TEST(levels_are_retained),

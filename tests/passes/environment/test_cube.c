@@ -115,8 +115,9 @@ static double row_solid_angle(uint32_t row, uint32_t width, uint32_t height) {
 /// the seam of the image, at and near the poles.
 static void a_small_sun_keeps_its_energy(void **state) {
     static const uint32_t places[][2] = {
-        {18, 46}, {64, 64}, {79, 64}, {80, 39},   {255, 50},  {13, 0},  {127, 1},
-        {200, 2}, {150, 4}, {77, 7},  {222, 127}, {100, 126}, {166, 6}, {50, 119},
+        {18, 46}, {64, 64},  {79, 64}, {80, 39}, {255, 50},  {13, 0},
+        {127, 1}, {200, 2},  {150, 4}, {77, 7},  {222, 127}, {100, 126},
+        {166, 6}, {50, 119}, {77, 10}, {20, 9},  {20, 10},   {20, 12},
     };
     const uint32_t width = 256, height = 128;
     lobe_environment environment = environment_of_colour(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, width,
@@ -129,7 +130,7 @@ static void a_small_sun_keeps_its_energy(void **state) {
         host_cube cube = cube_of(*state, &environment, 32);
         double energy[3], expected = 2 * (1e5 - 1) * row_solid_angle(y, width, height);
         cube_energy(&cube, 0, energy);
-        if (!(fabs((energy[1] - energy[0]) / expected - 1) < 5e-3))
+        if (!(fabs((energy[1] - energy[0]) / expected - 1) < 1.2e-2))
             fail_msg("a sun at (%u, %u) has %g of its energy", x, y,
                      (energy[1] - energy[0]) / expected);
         free_cube(&cube);

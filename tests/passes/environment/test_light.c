@@ -109,6 +109,7 @@ static void a_white_room_leaves_lambert_white(void **state) {
         material.lobes[0].colour[i] = 0;
     }
     lobe_scene *scene = square_in(white, &material, aslant);
+    hold_scene(*state, scene);
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
         const char *filter = filters[i];
         for (int method = 0; method < METHODS; method++) {
@@ -120,6 +121,7 @@ static void a_white_room_leaves_lambert_white(void **state) {
                 fail_msg("%s, %s: %g", filter, methods[method], found);
         }
     }
+    hold_scene(*state, NULL);
     lobe_scene_destroy(&scene);
 }
 
@@ -264,6 +266,7 @@ static void blended_levels_are_nearer(void **state) {
     static const char *const levels[] = {"env_levels=trilinear", "env_levels=blended"};
     for (float kappa = 512; kappa >= 128; kappa /= 4) {
         lobe_scene *scene = lobe_below_lamp(kappa);
+        hold_scene(*state, scene);
         lobe_frame exact = draw_below_lamp(*state, scene, methods[EXACT], NULL);
         double off[2];
         for (int i = 0; i < 2; i++) {
@@ -275,6 +278,7 @@ static void blended_levels_are_nearer(void **state) {
         if (!(off[1] < 0.4 * off[0]))
             fail_msg("kappa %g: %g off, %g blended", (double)kappa, off[0], off[1]);
         lobe_frame_free(&exact);
+        hold_scene(*state, NULL);
         lobe_scene_destroy(&scene);
     }
 }
@@ -378,10 +382,12 @@ static void rotation_turns_the_environment(void **state) {
 static void nothing_comes_from_below_the_horizon(void **state) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
     lobe_scene *scene = square_in(ground, &material, (double[]){1, 0.2, 0});
+    hold_scene(*state, scene);
     double ignored = draw_pixel(*state, scene, "direct", methods[PREFILTERED], "horizon=ignored");
     double clipped = draw_pixel(*state, scene, "direct", methods[PREFILTERED], "horizon=clipped");
     double faded = draw_pixel(*state, scene, "direct", methods[PREFILTERED], "horizon=faded");
     double exact = draw_pixel(*state, scene, "direct", methods[EXACT], NULL);
+    hold_scene(*state, NULL);
     assert_true(exact < 1e-3);
     assert_true(clipped < 0.4 * ignored && faded < 0.8 * ignored && clipped < faded);
     lobe_scene_destroy(&scene);
