@@ -25,7 +25,7 @@ layout(set = 0, binding = 1, std430) readonly buffer harmonics_block { broad_har
 // What is fitted: what F_0 and F_90 reflect, for an albedo of 1, and the lobe.
 const int LOBE = 2, FITTED = 3;
 
-shared vec4 light[RINGS * AZIMUTHS]; // height, aside, parts
+shared vec2 ring_sums[RINGS][BROAD_HARMONICS]; // of what F_0 and F_90 reflect
 shared vec2 albedo;
 shared float harmonics[FITTED][BROAD_HARMONICS];
 shared float coefficients[FITTED][BROAD_FUNCTIONS];
@@ -43,22 +43,45 @@ int order_of_function(int j) {
     return int(j >= FIRST_FUNCTION[1]) + int(j >= FIRST_FUNCTION[2]) + int(j >= FIRST_FUNCTION[3]);
 }
 
-// The harmonic cos(m azimuth) Y_lm of a direction, without its scale: its height and its x.
-float harmonic_of(int degree, int order, float height, float aside) {
+// cos(m azimuth) times sin^m of a direction, of its height and its x.
+float azimuthal_part(int order, float height, float aside) {
     float square = (1.0 - height) * (1.0 + height);
-    float azimuthal = order == 0   ? 1.0
-                      : order == 1 ? aside
-                      : order == 2 ? 2.0 * aside * aside - square
-                                   : aside * (4.0 * aside * aside - 3.0 * square);
-    // Legendre's functions of one order over their first one, by the usual recurrence.
+    return order == 0   ? 1.0
+           : order == 1 ? aside
+           : order == 2 ? 2.0 * aside * aside - square
+                        : aside * (4.0 * aside * aside - 3.0 * square);
+}
+
+// Legendre's functions of one order over their first one, by the usual recurrence: that of degree
+// l + 1 from those of degrees l and l - 1.
+float next_degree(int l, int order, float height, float current, float before) {
+    return (height * float(2 * l + 1) * current - float(l + order) * before) *
+           (1.0 / float(l + 1 - order));
+}
+
+// The harmonic cos(m azimuth) Y_lm of a direction, without its scale.
+float harmonic_of(int degree, int order, float height, float aside) {
     float before = 0.0, current = 1.0;
     for (int l = order; l < degree; ++l) {
-        float next = (height * float(2 * l + 1) * current - float(l + order) * before) /
-                     float(l + 1 - order);
+        float next = next_degree(l, order, height, current, before);
         before = current;
         current = next;
     }
-    return azimuthal * current;
+    return azimuthal_part(order, height, aside) * current;
+}
+
+// Adds all harmonics of one direction, times what it reflects.
+void add_harmonics(reflected_light light, inout vec2 sums[BROAD_HARMONICS]) {
+    for (int order = 0; order < BROAD_ORDERS; ++order) {
+        vec2 parts = azimuthal_part(order, light.height, light.aside) * light.parts;
+        float before = 0.0, current = 1.0;
+        for (int l = order; l <= BROAD_DEGREE; ++l) {
+            sums[FIRST_HARMONIC[order] + l - order] += current * parts;
+            float next = next_degree(l, order, light.height, current, before);
+            before = current;
+            current = next;
+        }
+    }
 }
 
 // What a von Mises-Fisher lobe leaves of a degree: A_l = I_(l+1/2)(kappa)/I_(1/2)(kappa), by
@@ -197,19 +220,23 @@ void main() {
     float roughness = mix(BROAD_LEAST_ROUGHNESS, 1.0, place.y);
     int own = int(gl_LocalInvocationID.x);
     vec3 ring = ring_of_half_vectors(own, cosine, sine, alpha_from_roughness(roughness));
-    for (int i = 0; i < AZIMUTHS; ++i) {
-        reflected_light reflected =
-            light_of_ring(ring, i, cosine, sine, microfacet_parameter(DISTRIBUTION, roughness),
-                          microfacet_parameter(MASKING, roughness));
-        light[AZIMUTHS * own + i] = vec4(reflected.height, reflected.aside, reflected.parts);
-    }
+    vec2 sums[BROAD_HARMONICS];
+    for (int k = 0; k < BROAD_HARMONICS; ++k)
+        sums[k] = vec2(0.0);
+    for (int i = 0; i < AZIMUTHS; ++i)
+        add_harmonics(light_of_ring(ring, i, cosine, sine,
+                                    microfacet_parameter(DISTRIBUTION, roughness),
+                                    microfacet_parameter(MASKING, roughness)),
+                      sums);
+    for (int k = 0; k < BROAD_HARMONICS; ++k)
+        ring_sums[own][k] = sums[k];
     barrier();
     int harmonic = min(own, BROAD_HARMONICS - 1), order = order_of_harmonic(harmonic);
     int degree = order + harmonic - FIRST_HARMONIC[order];
     float scale = known.scale[harmonic];
     vec2 reflected = vec2(0.0);
-    for (int i = 0; i < RINGS * AZIMUTHS; ++i)
-        reflected += harmonic_of(degree, order, light[i].x, light[i].y) * light[i].zw;
+    for (int i = 0; i < RINGS; ++i)
+        reflected += ring_sums[i][harmonic];
     if (own == 0)
         albedo = reflected;
     barrier();
