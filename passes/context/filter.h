@@ -67,8 +67,7 @@ struct lobe_filter {
     bool stretches_slopes;   ///< those of heights: the shader reads STRETCHED
     bool draws_waves;        ///< the shader has a variant WAVES
     bool fetches_for_lights; ///< the shader fetches maps for each four lights
-    /// The shader reads the lobes' map texel by texel, in loops for each four lights.
-    bool fetches_texels;
+    bool fetches_texels;     ///< the shader reads the lobes' map texel by texel
     /// The shader reads the environment's moments over hemispheres for materials with heights.
     bool gathers_moments;
     /// Shading runs loops for each light, which devices may cut short if there are many.

@@ -321,8 +321,7 @@ static struct environment_constants constants_of(const filter_context *context,
 static lobe_range levels_read(const environment_light *light, const filter_context *context) {
     if (light->method != ENVIRONMENT_EXACT)
         return (lobe_range){0};
-    const bool many_loops = passes_closes_surfaces(context) || context->filter->fetches_texels ||
-                            context->filter->loops_for_lights;
+    const bool many_loops = passes_closes_surfaces(context) || context->filter->loops_for_lights;
     const uint32_t width = many_loops ? EXACT_WIDTH_OF_MANY_LOOPS : EXACT_WIDTH;
     uint32_t level = 0;
     while (environment_width(context) >> level > width)

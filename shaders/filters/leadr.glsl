@@ -121,6 +121,13 @@ vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incomi
                                   fetched.gathered[light]);
 }
 
+lobes_of_texels texels_of(appearance fetched, vec3 halfway, vec3 outgoing, vec3 incoming) {
+    footprint_lobe lobe = fetched.lobe;
+    return lobes_of_texels(lobe.facets.mean, lobe.texels, lobe.base_variance,
+                           fetched.filtered.width, undrawn_part(lobe, lobe.texels), halfway,
+                           outgoing, incoming);
+}
+
 // Eq. 17, or each texel's own lobe instead of D.
 vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing, vec3 incoming) {
     footprint_lobe lobe = fetched.lobe;
@@ -128,9 +135,7 @@ vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing
     float distribution;
     vec3 base = vec3(0.0);
     if (BASE_PLANE == BASE_PLANE_FACETS) {
-        distribution = mirroring_facets(lobes_of_texels(
-            mean, lobe.texels, lobe.base_variance, fetched.filtered.width,
-            undrawn_part(lobe, lobe.texels), halfway, outgoing, incoming));
+        distribution = mirroring_facets(texels_of(fetched, halfway, outgoing, incoming));
     } else {
         base = lobe.base;
         distribution = distribution_of_slopes(lobe.slopes, halfway);
@@ -149,74 +154,23 @@ vec3 mirror_facets(appearance fetched, vec3 fresnel, vec3 halfway, vec3 outgoing
 // ---------------------------------------------------------------------------------------------
 // Closed surfaces: masked not as a displaced surface is, but as each texel's facets are
 
-mat2 covariance_matrix(slope_distribution slopes) {
-    vec3 root = slopes.root;
-    float mixed = root.x * root.z;
-    return mat2(root.x * root.x, mixed, mixed, root.y * root.y + root.z * root.z);
-}
-
 mapped_facet facet_of_footprint(appearance fetched, int node) {
     return mapped_facet(slope_at(fetched.lobe.facets, slope_node(node)),
                         fetched.filtered.specular, fetched.filtered.diffuse,
                         fetched.filtered.specular, fetched.filtered.width, turn_of_node(node));
 }
 
-slope_distribution slopes_of_matrix(vec2 mean, mat2 covariance) {
-    return slope_distribution_of(mean, vec3(covariance[0][0], covariance[1][1], covariance[0][1]));
-}
-
-// The mean over all texels of D times their visibility. Half of the nodes are texels that reflect:
-// if their slopes were of covariance C and their base lobes in the plane of B, they would be
-//   at mean + C (C + B)^-1 (slope - mean), of covariance C - C (C + B)^-1 C,
-// and as dense as texels times that Gaussian of B over its mean. Tilting a texel broadens its base
-// lobe, so that B is taken broader than the base lobe: too broad costs little accuracy, too narrow
-// misses texels. The tails of GGX reflect where that Gaussian has none: the other nodes are any
-// texels, and both are weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining
-// Sampling Techniques for Monte Carlo Rendering, Eq. 14).
-struct mirroring {
-    slope_distribution texels, reflecting;
-    slope_distribution base; // about the half vector
-    vec2 distance; // of the half vector from the mean, in deviations of texels and base together
-    float peak;    // of the density of both together, over that of base
-};
-
-mirroring mirroring_of(footprint_lobe lobe, vec2 slope_of_half) {
-    mat2 texels = covariance_matrix(lobe.facets);
-    mat2 base = 2.0 * (1.0 + 2.0 * (texels[0][0] + texels[1][1])) *
-                (covariance_matrix(lobe.slopes) - texels);
-    mat2 gain = texels * inverse(texels + base);
-    vec2 mean = lobe.facets.mean;
-    slope_distribution both = slopes_of_matrix(mean, texels + base);
-    mirroring result;
-    result.texels = lobe.facets;
-    result.reflecting =
-        slopes_of_matrix(mean + gain * (slope_of_half - mean), texels - gain * texels);
-    result.base = slopes_of_matrix(slope_of_half, base);
-    result.distance = standardised_slope(both, slope_of_half);
-    result.peak = result.base.root.x * result.base.root.y / (both.root.x * both.root.y);
-    return result;
-}
-
-// The density of all texels, over the sum of both densities.
-float balance_of_texels(mirroring nodes, vec2 slope) {
-    vec2 from_half = standardised_slope(nodes.base, slope);
-    float exponent = 0.5 * (dot(nodes.distance, nodes.distance) - dot(from_half, from_half));
-    return nodes.peak / (nodes.peak + exp(min(exponent, 80.0)));
-}
-
-float mirroring_texels(footprint_lobe lobe, float width, vec3 halfway, vec3 outgoing,
-                       vec3 incoming) {
-    mirroring nodes = mirroring_of(lobe, slope_of_normal(halfway));
+// The mean over all texels of D times their visibility.
+float mirroring_texels(lobes_of_texels texels) {
+    mirroring_slopes mirroring = mirroring_slopes_of(texels);
     float sum = 0.0;
-    for (int i = 0; i < 2 * SLOPE_NODES; ++i) {
-        vec2 node = slope_node(i % SLOPE_NODES);
-        vec2 slope = i < SLOPE_NODES ? slope_at(nodes.reflecting, node)
-                                     : slope_at(nodes.texels, node);
-        sum += balance_of_texels(nodes, slope) *
-               normal_distribution(DISTRIBUTION, normal_of_slope(slope), halfway, width) *
-               visibility_of_texel(slope, width, outgoing, incoming);
+    for (int i = 0; i < SLOPE_NODES; ++i) {
+        float quotient;
+        vec2 slope = mirroring_slope(mirroring, slope_node(i), quotient);
+        sum += quotient *
+               visibility_of_texel(slope, texels.parameter, texels.outgoing, texels.incoming);
     }
-    return sum / float(SLOPE_NODES);
+    return mirroring.density * sum / float(SLOPE_NODES);
 }
 
 vec3 mirror_closed_facets(appearance fetched, vec3 halfway, vec3 outgoing, vec3 incoming) {
@@ -225,7 +179,7 @@ vec3 mirror_closed_facets(appearance fetched, vec3 halfway, vec3 outgoing, vec3 
     float cosine = max(dot(fetched.normal, outgoing), 0.0);
     return fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway)) *
            scattering_scale(f0, cosine, width) *
-           mirroring_texels(fetched.lobe, width, halfway, outgoing, incoming);
+           mirroring_texels(texels_of(fetched, halfway, outgoing, incoming));
 }
 
 vec3 evaluate_closed_facets(appearance fetched, vec3 outgoing, vec3 incoming) {

@@ -66,6 +66,7 @@ const lobe_filter passes_filter_fournier = {
     .knobs = knobs,
     .fetches_for_lights = true,
     .fetches_texels = true,
+    .loops_for_lights = true,
     .prepare = prepare,
     .adapts_to_texels = true,
     .save = passes_kept_save,

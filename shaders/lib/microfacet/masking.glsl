@@ -65,13 +65,19 @@ float masking(uint distribution, float cosine, float parameter) {
     return cosine > 0.0 ? 1.0 / (1.0 + smith_lambda(distribution, cosine, parameter)) : 0.0;
 }
 
-// G2: fraction that both directions see, heights correlated. Heitz, 2014, Eq. 99.
+// G2: fraction that both directions see, heights correlated. Heitz, 2014, Eq. 99; of GGX with
+// Lambda multiplied out.
 float masking_shadowing(uint distribution, float incident_cosine, float outgoing_cosine,
                         float parameter) {
-    return incident_cosine > 0.0 && outgoing_cosine > 0.0
-               ? 1.0 / (1.0 + smith_lambda(distribution, incident_cosine, parameter) +
-                        smith_lambda(distribution, outgoing_cosine, parameter))
-               : 0.0;
+    bool seen = incident_cosine > 0.0 && outgoing_cosine > 0.0;
+    if (distribution == DISTRIBUTION_GGX) {
+        vec2 c = clamp(vec2(incident_cosine, outgoing_cosine), COSINE_MINIMUM, 1.0);
+        vec2 root = sqrt(c * c + parameter * parameter * (1.0 - c) * (1.0 + c));
+        return seen ? 2.0 * c.x * c.y / (c.x * root.y + c.y * root.x) : 0.0;
+    }
+    return seen ? 1.0 / (1.0 + smith_lambda(distribution, incident_cosine, parameter) +
+                         smith_lambda(distribution, outgoing_cosine, parameter))
+                : 0.0;
 }
 
 #endif

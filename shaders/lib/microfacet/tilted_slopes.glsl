@@ -16,6 +16,18 @@ vec3 tilted_from_flat_slopes(vec2 tilt) {
     return (vec3(n, n, 0.0) - outer / (n + 1.0)) / square;
 }
 
+// Its inverse, N^2 B^-1 = N (I + m m^T/(N + 1)).
+vec3 flat_from_tilted_slopes(vec2 tilt) {
+    float n = sqrt(1.0 + dot(tilt, tilt));
+    return n * (vec3(1.0, 1.0, 0.0) + vec3(tilt * tilt, tilt.x * tilt.y) / (n + 1.0));
+}
+
+// A slope times one of these matrices.
+vec2 transformed_slope(vec3 symmetric, vec2 slope) {
+    return vec2(symmetric.x * slope.x + symmetric.z * slope.y,
+                symmetric.z * slope.x + symmetric.y * slope.y);
+}
+
 // Covariance over the flat plane of slopes that have the same variance each way over the tilted
 // one: variance N^2 (I + m m^T).
 vec3 flat_covariance_of_tilted(vec2 tilt, float variance) {

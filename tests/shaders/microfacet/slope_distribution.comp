@@ -22,6 +22,9 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         return vec4(transformed_covariance(tilted_from_flat_slopes(b.xy), c.xyz), 0.0);
     case 5:
         return vec4(flat_covariance_of_tilted(b.xy, a.x), 0.0);
+    case 6:
+        vec2 tilted = transformed_slope(tilted_from_flat_slopes(b.xy), a.xy);
+        return vec4(transformed_slope(flat_from_tilted_slopes(b.xy), tilted), 0.0, 0.0);
     default:
         return vec4(normal_of_slope(a.xy), 0.0);
     }

@@ -16,7 +16,7 @@
 #include "tests/shaders/support/samples.h"
 
 static const char shader[] = "microfacet/slope_distribution.comp";
-enum { DISTRIBUTION, ROOT, STANDARDISED, COVARIANCE, TILTED, FLAT, NORMAL };
+enum { DISTRIBUTION, ROOT, STANDARDISED, COVARIANCE, TILTED, FLAT, TILTED_AND_BACK, NORMAL };
 
 enum { COUNT = 8000 };
 static harness_arguments arguments[COUNT];
@@ -250,6 +250,11 @@ static void test_tilt(void **state) {
             check_close("flat covariance", &arguments[i], results[i].value[j], expected[j],
                         1e-6 * fmax(expected[0], expected[1]));
     }
+    harness_evaluate(state, shader, TILTED_AND_BACK, arguments, COUNT, results);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int j = 0; j < 2; j++)
+            check_close("tilted and back", &arguments[i], results[i].value[j], arguments[i].a[j],
+                        64 * FLOAT_ROUNDING);
 }
 
 /// What the first order stands for: slopes over the tilted plane of normals near its own.
