@@ -18,6 +18,7 @@
 #else
 
 #include "shading/slope_maps.glsl"
+#include "filters/leadr/base_lobes.glsl"
 #include "filters/leadr/drawn_slope.glsl"
 #include "filters/leadr/mirroring_facets.glsl"
 #include "shading/facet_grid.glsl"
@@ -36,7 +37,7 @@ struct footprint_lobe {
     slope_distribution facets; // texels' slopes
     slope_distribution slopes; // base lobes included, without the tails of GGX
     vec3 texels, base;         // covariances of both parts of the latter
-    float base_variance;       // of base lobes, over their own plane
+    base_lobes microfacets;    // over their own plane
     // Of displaced geometry: variance of the texels' slopes that triangles draw, so that the
     // facets' area does not depend on it, and what shadows them.
     float drawn;
@@ -56,11 +57,18 @@ vec3 base_covariance(slope_moments moments) {
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     moments = fetch_moments(area, surface);
+    base_lobes microfacets = fetch_base_lobes(area, moments.base_variance);
+    if (BASE_PLANE == BASE_PLANE_FACETS)
+        moments.base_variance = microfacets.variance;
     vec3 base = base_covariance(moments);
     return footprint_lobe(slope_distribution_of(moments.mean, moments.covariance),
                           slope_distribution_of(moments.mean, moments.covariance + base),
-                          moments.covariance, base, moments.base_variance, 0.0, moments.mean,
+                          moments.covariance, base, microfacets, 0.0, moments.mean,
                           moments.covariance);
+}
+
+void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface) {
+    tell_metal_apart(filtered, lobe.microfacets, surface);
 }
 
 // Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
@@ -123,7 +131,7 @@ vec3 lambert_facets(appearance fetched, vec3 fresnel, vec3 outgoing, vec3 incomi
 
 lobes_of_texels texels_of(appearance fetched, vec3 halfway, vec3 outgoing, vec3 incoming) {
     footprint_lobe lobe = fetched.lobe;
-    return lobes_of_texels(lobe.facets.mean, lobe.texels, lobe.base_variance,
+    return lobes_of_texels(lobe.facets.mean, lobe.texels, lobe.microfacets,
                            fetched.filtered.width, undrawn_part(lobe, lobe.texels), halfway,
                            outgoing, incoming);
 }
@@ -256,7 +264,7 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
         return sampled_slopes(surface, fetched.lobe, frame.specular);
     return reflect_masked_slopes(surface, half_vectors, frame.specular,
                                  BASE_HAS_TAILS && BASE_PLANE == BASE_PLANE_FACETS
-                                     ? fetched.lobe.base_variance
+                                     ? fetched.lobe.microfacets.variance
                                      : 0.0);
 }
 

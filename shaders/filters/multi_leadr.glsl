@@ -9,6 +9,7 @@
 
 #include "shading/slope_maps.glsl"
 #include "interface/moment_bins.h"
+#include "filters/leadr/base_lobes.glsl"
 #include "filters/leadr/drawn_slope.glsl"
 #include "filters/leadr/mirroring_facets.glsl"
 #include "shading/facet_grid.glsl"
@@ -34,6 +35,7 @@ struct slope_lobe {
 
 struct footprint_lobe {
     slope_lobe lobes[MOMENT_MAXIMUM_BINS]; // the first BINS
+    base_lobes microfacets;                // of all; `varies` within each
 };
 
 #include "shading/slope_appearance.glsl"
@@ -61,28 +63,49 @@ slope_moments fetch_component(map_area area, surface_point surface, uint index, 
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     footprint_lobe result;
-    float whole = 0.0, base_variance = 0.0;
+    float whole = 0.0, base_variance = 0.0, base_width = 0.0;
     vec2 mean = vec2(0.0);
     vec3 second = vec3(0.0);
     for (uint i = 0u; i < BINS; ++i) {
         float part;
         slope_moments own = fetch_component(area, surface, i, part);
-        vec3 base = flat_covariance_of_tilted(own.mean, own.base_variance);
-        result.lobes[i] = slope_lobe(part, slope_distribution_of(own.mean, own.covariance),
-                                     slope_distribution_of(own.mean, own.covariance + base),
-                                     own.covariance, own.base_variance);
+        result.lobes[i].part = part;
+        result.lobes[i].facets = slope_distribution_of(own.mean, own.covariance);
+        result.lobes[i].texels = own.covariance;
+        result.lobes[i].base_variance = own.base_variance;
         whole += part;
         base_variance += part * own.base_variance;
+        base_width += part * sqrt(own.base_variance);
         mean += part * own.mean;
         second += part * (own.covariance + vec3(own.mean * own.mean, own.mean.x * own.mean.y));
     }
     float scale = 1.0 / max(whole, 1e-6);
-    for (uint i = 0u; i < BINS; ++i)
+    base_variance *= scale;
+    base_width *= scale;
+    result.microfacets = fetch_base_lobes(area, base_variance);
+    float wider = 1.0;
+    if (BASE_LOBES != BASE_LOBES_ALIKE) {
+        // Components know the mean variance of their base lobes alone.
+        float between = log(base_variance / (base_width * base_width));
+        result.microfacets.varies = max(result.microfacets.varies - between, 0.0);
+        wider = result.microfacets.variance / (base_width * base_width);
+    }
+    for (uint i = 0u; i < BINS; ++i) {
         result.lobes[i].part *= scale;
+        result.lobes[i].base_variance *= wider;
+        vec2 own = result.lobes[i].facets.mean;
+        result.lobes[i].slopes = slope_distribution_of(
+            own, result.lobes[i].texels +
+                     flat_covariance_of_tilted(own, result.lobes[i].base_variance));
+    }
     mean *= scale;
     moments = slope_moments(mean, covariance_of_moments(mean, second * scale), 1.0,
-                            base_variance * scale);
+                            result.microfacets.variance);
     return result;
+}
+
+void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface) {
+    tell_metal_apart(filtered, lobe.microfacets, surface);
 }
 
 // Over a square of a level, around the middle of an area.
@@ -190,11 +213,12 @@ vec3 mirror_facets(appearance fetched, vec3 fresnel, float visible, vec3 halfway
     float distribution = 0.0;
     for (uint i = 0u; i < BINS; ++i) {
         slope_lobe lobe = fetched.lobe.lobes[i];
+        base_lobes microfacets = fetched.lobe.microfacets;
+        microfacets.variance = lobe.base_variance;
         distribution +=
-            lobe.part * mirroring_facets(
-                             lobes_of_texels(lobe.facets.mean, lobe.texels, lobe.base_variance,
-                                             fetched.filtered.width, 1.0, halfway, outgoing,
-                                             incoming));
+            lobe.part * mirroring_facets(lobes_of_texels(lobe.facets.mean, lobe.texels, microfacets,
+                                                         fetched.filtered.width, 1.0, halfway,
+                                                         outgoing, incoming));
     }
     return microfacet_specular(fresnel, distribution, visible,
                                height_above_slope(fetched.moments.mean, outgoing));

@@ -28,6 +28,22 @@
 #define BASE_PLANE_FACETS  0 // the plane of the mean normal
 #define BASE_PLANE_SURFACE 1 // the surface's, and GGX without its tails, as in the paper
 
+// Layers of the map of microfacets' base lobes of `leadr` and `multi_leadr`
+// (shaders/filters/leadr/base_lobes.comp): with alpha their width, c the base colour map's texel, m
+// metal's share and w the luminance of F0,
+//
+// [0]  E[w alpha], E[w alpha^2], E[w], E[m]
+// [1]  E[c m], E[m^2]; only with BASE_LOBES_COLOURED
+#define BASE_LOBE_LAYER_WIDTHS 0
+#define BASE_LOBE_LAYER_METAL  1
+
+// uint, BASE_LOBES_...
+#define SPECIALISE_BASE_LOBES (SPECIALISE_FILTER + 12)
+
+#define BASE_LOBES_ALIKE    0 // there is no such map
+#define BASE_LOBES_VARY     1 // in width; w is one, or metal has one colour
+#define BASE_LOBES_COLOURED 2 // the base colour map lies on the surface as the widths do
+
 // Numbers of the knobs of `leadr` (see knobs.h).
 struct leadr_knobs {
     float height; // factor of all slopes

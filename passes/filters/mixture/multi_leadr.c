@@ -1,6 +1,7 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/filters/leadr/base_lobes.h"
 #include "passes/filters/mixture/knobs.h"
 #include "passes/filters/mixture/record.h"
 #include "passes/filters/slope_knobs.h"
@@ -45,6 +46,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     const bool has = passes_mixture_build(context, material, &kind, prepared, &mixture);
     passes_appearance_specialise(appearance, SPECIALISE_BINS, kind.components);
     passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
+    passes_base_lobes_build(context, material, appearance);
 }
 
 static const char *ignores(const lobe_material *material) {

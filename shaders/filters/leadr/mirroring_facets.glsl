@@ -21,12 +21,10 @@
 // it is 3.3 %. Four nodes in each of the four Gaussians had 0.8 %, 1.6 % and 14 %: single Gaussians
 // differ from what they are to first order by more than their sum.
 
+#include "filters/leadr/base_lobes.glsl"
 #include "lib/lobe/plane_lobe.glsl"
 #include "lib/microfacet/slope_masking.glsl"
 #include "lib/microfacet/tilted_slopes.glsl"
-
-const bool BASE_HAS_TAILS =
-    MODEL == MODEL_MICROFACET && DISTRIBUTION == DISTRIBUTION_GGX && !BASE_AS_LOBE;
 
 // A rule for Gaussians, exact for polynomials of the third degree: the mean and five nodes around
 // it, whatever their turn. Weight of the mean: found for grazing views, in which masking has kinks.
@@ -46,7 +44,8 @@ vec3 mirror_node(int i) {
 struct lobes_of_texels {
     vec2 mean;
     vec3 covariance;
-    float base_variance, parameter; // of base lobes
+    base_lobes microfacets;
+    float parameter; // of the microfacets that mask each other
     float undrawn; // which part of a slope's distance from the mean decides how large facets are
     vec3 halfway, outgoing, incoming;
 };
@@ -64,12 +63,16 @@ mirroring_slopes mirroring_slopes_of(lobes_of_texels texels) {
     mirroring_slopes result;
     result.half_slope = slope_of_normal(texels.halfway);
     result.flat_from_tilted = flat_from_tilted_slopes(result.half_slope);
-    result.base_variance = texels.base_variance;
+    result.base_variance = texels.microfacets.variance;
     vec3 to_tilted = tilted_from_flat_slopes(result.half_slope);
     vec3 c = transformed_covariance(to_tilted, texels.covariance);
     vec2 mean = transformed_slope(to_tilted, texels.mean - result.half_slope);
-    vec4 base = texels.base_variance * (BASE_HAS_TAILS ? tail_spread(0.0) : vec4(1.0));
-    vec4 part = BASE_HAS_TAILS ? tail_weight(0.0) : vec4(1.0, 0.0, 0.0, 0.0);
+    vec4 base = vec4(texels.microfacets.variance), part = vec4(1.0, 0.0, 0.0, 0.0);
+    if (BASE_HAS_TAILS) {
+        // Of the median.
+        base *= exp(-texels.microfacets.varies) * tail_spread(texels.microfacets.varies);
+        part = tail_weight(texels.microfacets.varies);
+    }
     // Of the sum of both covariances C + B, and of (C + B)^-1 times the mean.
     float own_determinant = max(c.x * c.y - c.z * c.z, 0.0);
     vec4 inverse_determinant = 1.0 / (own_determinant + base * (c.x + c.y + base));

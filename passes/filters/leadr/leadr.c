@@ -1,5 +1,6 @@
 #include "passes/context/filter.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/filters/leadr/base_lobes.h"
 #include "passes/filters/slope_knobs.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/slope_moments.h"
@@ -40,10 +41,12 @@ static const char *ignores(const lobe_material *material) {
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
     const uint32_t material = context->scene->instances[instance].material;
-    if (passes_waves_are_drawn(context, &context->scene->materials[material]))
+    if (passes_waves_are_drawn(context, &context->scene->materials[material])) {
         passes_wave_moments_build(context, material, appearance);
-    else
-        passes_slope_moments_build(context, instance, prepared, appearance);
+        return;
+    }
+    passes_slope_moments_build(context, instance, prepared, appearance);
+    passes_base_lobes_build(context, material, appearance);
 }
 
 const lobe_filter passes_filter_leadr = {

@@ -1,0 +1,118 @@
+// The map of base lobes through the whole renderer: rusted metal, whose roughness, metal and colour
+// go together, against the mean over its texels.
+
+#include "tests/passes/support/fixture.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "passes/context/sample_pattern.h"
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/passes/support/shading_reference.h"
+#include "tests/reference/microfacet/microfacet.h"
+#include "tests/reference/vector.h"
+
+enum { EXTENT = 16 };
+
+typedef struct rust_texel {
+    double roughness, metallic, colour[3];
+} rust_texel;
+
+/// From rust to steel, with places that are neither; roughness varies by itself, too.
+static rust_texel rust_at(uint32_t texel) {
+    const double steel = passes_hashed_number(2 * texel + 1),
+                 noise = passes_hashed_number(2 * texel + 2);
+    const double part = steel * steel * (3 - 2 * steel);
+    return (rust_texel){.roughness = 0.8 - 0.4 * part + 0.15 * (noise - 0.5),
+                        .metallic = part,
+                        .colour = {0.2 + 0.4 * part, 0.1 + 0.5 * part, 0.05 + 0.5 * part}};
+}
+
+static void add_maps(lobe_scene *scene, lobe_material *material) {
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT),
+               widths = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const rust_texel texel = rust_at(i);
+        float *colour = (float *)colours.texels + (size_t)4 * i;
+        float *width = (float *)widths.texels + (size_t)4 * i;
+        for (int j = 0; j < 3; j++)
+            colour[j] = (float)texel.colour[j];
+        width[1] = (float)texel.roughness;
+        width[2] = (float)texel.metallic;
+        colour[3] = width[0] = width[3] = 1;
+    }
+    material->base_colour_map = scene_add_map(scene, colours);
+    material->metallic_roughness_map = scene_add_map(scene, widths);
+    material->base_colour_map.nearest = material->metallic_roughness_map.nearest = true;
+}
+
+/// Over the plane z = 0.
+static void mean_of_texels(const double outgoing[3], const double incoming[3], double radiance[3]) {
+    static const double normal[3] = {0, 0, 1};
+    double half_vector[3];
+    half_between(incoming, outgoing, half_vector);
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const rust_texel texel = rust_at(i);
+        const double alpha = texel.roughness * texel.roughness;
+        const double distribution =
+            reference_normal_distribution(LOBE_DISTRIBUTION_GGX, normal, half_vector, alpha);
+        const double visible =
+            reference_masking_shadowing(LOBE_DISTRIBUTION_GGX, incoming[2], outgoing[2], alpha);
+        for (int j = 0; j < 3; j++) {
+            const double f0 = 0.04 * (1 - texel.metallic) + texel.colour[j] * texel.metallic;
+            const double fresnel = reference_fresnel(f0, 1, reference_dot(incoming, half_vector));
+            radiance[j] +=
+                (reference_microfacet_specular(fresnel, distribution, visible, outgoing[2]) +
+                 reference_microfacet_diffuse(texel.colour[j] * (1 - texel.metallic), fresnel,
+                                              incoming[2])) /
+                (EXTENT * EXTENT);
+        }
+    }
+}
+
+/// The viewer is above, and the light at an angle from there. World: y is up.
+static void draw_rust(fixture *f, const char *filter, double degrees, float radiance[3]) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
+    for (int j = 0; j < 3; j++)
+        material.base_colour[j] = 1;
+    add_maps(scene, &material);
+    scene_add_square(scene, &material, 40, NULL);
+    scene_look_from(scene, (double[]){sin(0.1), cos(0.1), 0}, 0.2);
+    const double angle = degrees * M_PI / 180;
+    scene_add_sun(scene, (double[]){sin(angle), cos(angle), 0}, 1);
+    scene_end(scene);
+    const picture_request request = {.filter = filter, .width = 1, .height = 1};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    memcpy(radiance, pixel_at(&frame.radiance, 0, 0), 3 * sizeof *radiance);
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+}
+
+/// One lobe of the mean variance of all texels in the mean colour is 0.6 of the highlight, and 1.4
+/// times what is around it.
+static void rusted_metal_is_the_mean_of_its_texels(void **state) {
+    static const char *const filters[] = {"leadr", "multi_leadr"};
+    static const double angles[] = {6, 20, 35, 50, 65, 75};
+    for (int i = 0; i < 12; i++) {
+        const double angle = angles[i / 2] * M_PI / 180;
+        double expected[3];
+        float found[3];
+        mean_of_texels((double[]){sin(0.1), 0, cos(0.1)}, (double[]){sin(angle), 0, cos(angle)},
+                       expected);
+        draw_rust(*state, filters[i % 2], angles[i / 2], found);
+        for (int j = 0; j < 3; j++)
+            if (!(fabs((double)found[j] - expected[j]) <= 0.08 * expected[j]))
+                fail_msg("%s, %g degrees, channel %d: %.6g instead of %.6g", filters[i % 2],
+                         angles[i / 2], j, (double)found[j], expected[j]);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rusted_metal_is_the_mean_of_its_texels),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
