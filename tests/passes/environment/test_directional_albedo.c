@@ -186,7 +186,7 @@ static void tables_are_made_once(void **state) {
     assert_memory_equal(again, tables, sizeof again);
     lobe_graph_invalidate(f->graph);
     tabulate(f, again);
-    assert_int_equal(count_passes(f->graph, "directional_albedo", LOBE_PASS_RUN), DISTRIBUTIONS);
+    assert_int_equal(count_passes(f->graph, "directional_albedo", LOBE_PASS_RUN), 0);
     assert_memory_equal(again, tables, sizeof again);
 }
 
