@@ -81,6 +81,8 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     passes_reduced_map_write(&map, pass, kind->binding, 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
+    if (kind->read_more)
+        kind->read_more(context, material, pass, &list);
     const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
     lobe_dispatch dispatch = {.shader = context->marks ? kind->seen_shader : kind->shader,
                               .constants = &extent,

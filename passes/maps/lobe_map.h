@@ -38,6 +38,9 @@ typedef struct lobe_map_kind {
     const char *seen_shader; ///< its variant SEEN_TILES, see passes/maps/seen_tiles.h
     const char *binding;     ///< of the map, in that shader and in shading
     uint32_t layers;         ///< of the map
+    /// Binds and specialises what the shader reads beside the base maps. NULL: nothing.
+    void (*read_more)(const filter_context *context, const device_material *material,
+                      lobe_pass *pass, specialisation_list *list);
 } lobe_map_kind;
 
 /// Adds the pass that makes the map, and the reduction. The material has a normal or a width map.
