@@ -1,15 +1,12 @@
 #include "passes/environment/broad_reflection.h"
 
 #include <math.h>
-#include <stdio.h>
 
+#include "passes/environment/reflection_table.h"
 #include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
 #include "shaders/interface/environment/reflected_rings.h"
 #include "shaders/interface/specialisation.h"
-
-const lobe_sampler passes_broad_reflection_sampler = {
-    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
 
 // ---------------------------------------------------------------------------------------------
 // Least squares over spherical harmonics
@@ -143,18 +140,8 @@ static struct broad_harmonics known_harmonics(void) {
 
 lobe_resource passes_broad_reflection(lobe_graph *graph, lobe_distribution distribution,
                                       lobe_distribution masking, uint32_t probes) {
-    char name[64];
-    snprintf(name, sizeof name, "broad reflection of distribution %d, masked as %d",
-             (int)distribution, (int)masking);
-    lobe_resource table =
-        lobe_graph_image(graph, &(lobe_image_description){.name = name,
-                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
-                                                          .width = BROAD_REFLECTION_SIZE,
-                                                          .height = BROAD_REFLECTION_SIZE,
-                                                          .layers = BROAD_REFLECTION_LAYERS,
-                                                          .retained = true,
-                                                          .shared = true,
-                                                          .permanent = true});
+    lobe_resource table = passes_reflection_table(graph, "broad reflection", distribution, masking,
+                                                  BROAD_REFLECTION_SIZE, BROAD_REFLECTION_LAYERS);
     const struct broad_harmonics known = known_harmonics();
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "broad_reflection");
     lobe_pass_read(pass, &(lobe_binding){.name = "harmonics_block",

@@ -4,9 +4,6 @@
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
-/// How shaders sample the table: linearly, clamped to the edge.
-extern const lobe_sampler passes_broad_reflection_sampler;
-
 /// Adds the pass that tabulates what rough microfacets reflect as a lobe and a polynomial over the
 /// hemisphere: a retained RGBA32_FLOAT image of BROAD_REFLECTION_SIZE squared and
 /// BROAD_REFLECTION_LAYERS layers, over the cosine to the viewer and roughness.

@@ -1,26 +1,13 @@
 #include "passes/environment/directional_albedo.h"
 
-#include <stdio.h>
-
+#include "passes/environment/reflection_table.h"
 #include "shaders/interface/environment/directional_albedo.h"
 #include "shaders/interface/specialisation.h"
 
-const lobe_sampler passes_directional_albedo_sampler = {
-    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
-
 lobe_resource passes_directional_albedo(lobe_graph *graph, lobe_distribution distribution,
                                         lobe_distribution masking) {
-    char name[64];
-    snprintf(name, sizeof name, "directional albedo of distribution %d, masked as %d",
-             (int)distribution, (int)masking);
-    lobe_resource table =
-        lobe_graph_image(graph, &(lobe_image_description){.name = name,
-                                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
-                                                          .width = DIRECTIONAL_ALBEDO_SIZE,
-                                                          .height = DIRECTIONAL_ALBEDO_SIZE,
-                                                          .retained = true,
-                                                          .shared = true,
-                                                          .permanent = true});
+    lobe_resource table = passes_reflection_table(graph, "directional albedo", distribution,
+                                                  masking, DIRECTIONAL_ALBEDO_SIZE, 1);
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "directional_albedo");
     table = lobe_pass_write(pass, &(lobe_binding){.name = "directional_albedo", .resource = table});
     const lobe_specialisation specialisation[] = {

@@ -4,9 +4,6 @@
 #include <lobe/graph.h>
 #include <lobe/scene.h>
 
-/// How shaders sample the table: linearly, clamped to the edge.
-extern const lobe_sampler passes_directional_albedo_sampler;
-
 /// Adds the pass that tabulates how much of uniform light a microfacet distribution reflects: a
 /// retained RGBA32_FLOAT image of DIRECTIONAL_ALBEDO_SIZE squared, over the cosine to the viewer
 /// and roughness. shaders/environment/directional_albedo.comp describes its contents, and

@@ -10,6 +10,7 @@
 #include "passes/environment/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
 #include "passes/environment/reflected_lobes.h"
+#include "passes/environment/reflection_table.h"
 #include "passes/maps/filtered_maps.h"
 #include "shaders/interface/environment/broad_reflection.h"
 #include "shaders/interface/environment/environment_light.h"
@@ -394,27 +395,27 @@ passes_environment_light_bind_material(const environment_light *light,
     const bool slopes = context->filter->slopes;
     size_t count = 0;
     bindings[count++] = bind_table("directional_albedo_table", light->albedo[own][own],
-                                   passes_directional_albedo_sampler, context);
+                                   passes_reflection_table_sampler, context);
     if (slopes)
         bindings[count++] =
             bind_table("slope_albedo_table", light->albedo[LOBE_DISTRIBUTION_BECKMANN][masking],
-                       passes_directional_albedo_sampler, context);
+                       passes_reflection_table_sampler, context);
     // Shaders for scenes without an environment have no such tables.
     if (!light->present)
         return count;
     bindings[count++] = bind_table("broad_reflection_table", light->broad[own][own],
-                                   passes_broad_reflection_sampler, context);
+                                   passes_reflection_table_sampler, context);
     bindings[count++] = bind_table("reflected_lobes_table", light->lobes[own][own],
-                                   passes_reflected_lobes_sampler, context);
+                                   passes_reflection_table_sampler, context);
     bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
                                    passes_hemisphere_moments_sampler, context);
     if (!slopes)
         return count;
     bindings[count++] = bind_table("slope_broad_reflection_table",
                                    light->broad[LOBE_DISTRIBUTION_BECKMANN][masking],
-                                   passes_broad_reflection_sampler, context);
+                                   passes_reflection_table_sampler, context);
     bindings[count++] =
         bind_table("slope_reflected_lobes_table", light->lobes[LOBE_DISTRIBUTION_BECKMANN][masking],
-                   passes_reflected_lobes_sampler, context);
+                   passes_reflection_table_sampler, context);
     return count;
 }
