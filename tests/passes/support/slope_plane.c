@@ -86,6 +86,23 @@ void slope_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const c
     lobe_frame_free(&frame);
 }
 
+void slope_plane_draw_lit(fixture *f, const lobe_material *material, const lobe_image *normals,
+                          const char *filter, const char *setting, const double outgoing[3],
+                          const double incoming[3], float colour[3]) {
+    lobe_material mapped;
+    lobe_scene *scene = slope_plane(material, normals, outgoing, &mapped);
+    slope_plane_add_sun(scene, incoming, 1);
+    slope_plane_draw(f, scene, filter, setting, colour);
+    lobe_scene_destroy(&scene);
+}
+
+const double slope_plane_angles[4] = {0, 35, 65, 80};
+
+void slope_plane_pair(int pair, double outgoing[3], double incoming[3]) {
+    slope_plane_direction(slope_plane_angles[pair / 4], 0.4, outgoing);
+    slope_plane_direction(slope_plane_angles[pair % 4], 0.4 + 0.7 * pair, incoming);
+}
+
 enum { ROWS = 40, COLUMNS = 60 };
 
 /// Suns on a grid of equal solid angles.

@@ -27,6 +27,15 @@ void slope_plane_add_sun(lobe_scene *scene, const double incoming[3], double int
 /// Draws the pixel with one more assignment, or NULL.
 void slope_plane_draw(fixture *f, lobe_scene *scene, const char *filter, const char *setting,
                       float colour[3]);
+/// The same of a plane under one sun.
+void slope_plane_draw_lit(fixture *f, const lobe_material *material, const lobe_image *normals,
+                          const char *filter, const char *setting, const double outgoing[3],
+                          const double incoming[3], float colour[3]);
+
+/// Angles from upright, in degrees, and one viewer and one light for each of the 16 pairs of them,
+/// in different planes: that of the light changes first.
+extern const double slope_plane_angles[4];
+void slope_plane_pair(int pair, double outgoing[3], double incoming[3]);
 
 /// The fraction of uniform light that is reflected to the viewer, who is `degrees` from upright.
 double slope_plane_furnace(fixture *f, const lobe_material *material, const lobe_image *normals,

@@ -14,24 +14,7 @@
 #include "tests/reference/map/box_reduction.h"
 #include "tests/reference/vector.h"
 
-static const double angles[] = {0, 35, 65, 80};
 static const leadr_knobs usual = {5, 2.2, 1, false};
-
-/// One light and one viewer for each pair of angles, in different planes.
-static void directions_at(int i, double outgoing[3], double incoming[3]) {
-    slope_plane_direction(angles[i / 4], 0.4, outgoing);
-    slope_plane_direction(angles[i % 4], 0.4 + 0.7 * i, incoming);
-}
-
-static void draw_one(fixture *f, const lobe_material *material, const lobe_image *normals,
-                     const char *filter, const char *setting, const double outgoing[3],
-                     const double incoming[3], float found[3]) {
-    lobe_material mapped;
-    lobe_scene *scene = slope_plane(material, normals, outgoing, &mapped);
-    slope_plane_add_sun(scene, incoming, 1);
-    slope_plane_draw(f, scene, filter, setting, found);
-    lobe_scene_destroy(&scene);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Against double precision
@@ -57,13 +40,14 @@ static void check_shading(fixture *f, const lobe_material *material, const lobe_
     for (int i = 0; i < 16; i += 3) {
         double outgoing[3], incoming[3], expected[3];
         float found[3];
-        directions_at(i, outgoing, incoming);
-        draw_one(f, material, normals, "leadr", setting, outgoing, incoming, found);
+        slope_plane_pair(i, outgoing, incoming);
+        slope_plane_draw_lit(f, material, normals, "leadr", setting, outgoing, incoming, found);
         shade_leadr(material, knobs, moments, outgoing, incoming, expected);
         for (int j = 0; j < 3; j++) {
             if (!(fabs((double)found[j] - expected[j]) <= tolerance * expected[j] + 1e-6))
                 fail_msg("%s, from %g to %g degrees, channel %d: %.7g instead of %.7g", what,
-                         angles[i % 4], angles[i / 4], j, (double)found[j], expected[j]);
+                         slope_plane_angles[i % 4], slope_plane_angles[i / 4], j, (double)found[j],
+                         expected[j]);
         }
     }
 }
@@ -145,9 +129,9 @@ static double difference_to_direct(fixture *f, const lobe_material *material,
     float largest = 0, pairs[16][2][3];
     for (int i = 0; i < 16; i += 3) {
         double outgoing[3], incoming[3];
-        directions_at(i, outgoing, incoming);
-        draw_one(f, material, &image, "leadr", NULL, outgoing, incoming, pairs[i][0]);
-        draw_one(f, material, &image, "direct", NULL, outgoing, incoming, pairs[i][1]);
+        slope_plane_pair(i, outgoing, incoming);
+        slope_plane_draw_lit(f, material, &image, "leadr", NULL, outgoing, incoming, pairs[i][0]);
+        slope_plane_draw_lit(f, material, &image, "direct", NULL, outgoing, incoming, pairs[i][1]);
         largest = fmaxf(largest, pairs[i][1][1]);
     }
     for (int i = 0; i < 16; i += 3)
@@ -201,8 +185,8 @@ static double difference_about_mirror(fixture *f, double roughness, double view)
         if (incoming[2] < 0.1)
             continue;
         float found[3], expected[3];
-        draw_one(f, &material, &image, "leadr", NULL, outgoing, incoming, found);
-        draw_one(f, &material, &image, "direct", NULL, outgoing, incoming, expected);
+        slope_plane_draw_lit(f, &material, &image, "leadr", NULL, outgoing, incoming, found);
+        slope_plane_draw_lit(f, &material, &image, "direct", NULL, outgoing, incoming, expected);
         worst = fmax(worst, fabs((double)found[1] - (double)expected[1]));
         peak = fmax(peak, (double)expected[1]);
     }
@@ -267,9 +251,9 @@ static void rough_lambert_looks_back(void **state) {
     float back[3], forth[3];
     slope_plane_direction(60, 0.4, incoming);
     slope_plane_direction(60, 0.4, outgoing);
-    draw_one(*state, &material, &rough, "leadr", NULL, outgoing, incoming, back);
+    slope_plane_draw_lit(*state, &material, &rough, "leadr", NULL, outgoing, incoming, back);
     slope_plane_direction(60, 0.4 + M_PI, outgoing);
-    draw_one(*state, &material, &rough, "leadr", NULL, outgoing, incoming, forth);
+    slope_plane_draw_lit(*state, &material, &rough, "leadr", NULL, outgoing, incoming, forth);
     assert_true((double)back[1] > 1.05 * lambert && (double)forth[1] < 0.8 * lambert);
     lobe_image_free(&rough);
 }
@@ -288,15 +272,15 @@ static void no_energy_is_gained(void **state) {
         lobe_material material =
             microfacet_material(LOBE_DISTRIBUTION_BECKMANN, i % 2 ? 0.4 : 0.9, i < 6 ? 1 : 0);
         for (int j = 0; j < 4; j++) {
-            double reflected =
-                slope_plane_furnace(*state, &material, &image, "leadr", NULL, angles[j]);
+            double reflected = slope_plane_furnace(*state, &material, &image, "leadr", NULL,
+                                                   slope_plane_angles[j]);
             double most = 1.003;
             if (i >= 6)
                 most = 1.01 * fmax(1, slope_plane_furnace(*state, &material, &flat, "reference",
-                                                          NULL, angles[j]));
+                                                          NULL, slope_plane_angles[j]));
             if (!(reflected > 0.2 && reflected <= most))
                 fail_msg("ground %d, material %d, %g degrees: %g of the light comes back", i % 3,
-                         i / 3, angles[j], reflected);
+                         i / 3, slope_plane_angles[j], reflected);
         }
         lobe_image_free(&image);
     }
@@ -311,14 +295,14 @@ static void light_and_viewer_may_change_places(void **state) {
         double a[3], b[3], moments[8];
         float there[3], back[3];
         const lobe_image *ground = &grounds[i / 16];
-        directions_at(i % 16, a, b);
+        slope_plane_pair(i % 16, a, b);
         moments_of(&material, ground, moments);
         double above_a = a[2] - moments[0] * a[0] - moments[1] * a[1];
         double above_b = b[2] - moments[0] * b[0] - moments[1] * b[1];
         if (above_a < 0.02 || above_b < 0.02)
             continue;
-        draw_one(*state, &material, ground, "leadr", NULL, a, b, there);
-        draw_one(*state, &material, ground, "leadr", NULL, b, a, back);
+        slope_plane_draw_lit(*state, &material, ground, "leadr", NULL, a, b, there);
+        slope_plane_draw_lit(*state, &material, ground, "leadr", NULL, b, a, back);
         double one = (double)there[1] / above_b, other = (double)back[1] / above_a;
         if (!(one > 0 && fabs(one - other) <= 2e-3 * one))
             fail_msg("ground %d, pair %d: %.6g there, %.6g back", i / 16, i % 16, one, other);

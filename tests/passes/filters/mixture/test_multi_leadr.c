@@ -14,24 +14,7 @@
 
 enum { EXTENT = 8 };
 
-static const double angles[] = {0, 35, 65, 80};
 static const leadr_knobs usual = {5, 2.2, 1, false};
-
-/// One light and one viewer for each pair of angles, in different planes.
-static void directions_at(int i, double outgoing[3], double incoming[3]) {
-    slope_plane_direction(angles[i / 4], 0.4, outgoing);
-    slope_plane_direction(angles[i % 4], 0.4 + 0.7 * i, incoming);
-}
-
-static void draw_one(fixture *f, const lobe_material *material, const lobe_image *normals,
-                     const char *filter, const char *setting, const double outgoing[3],
-                     const double incoming[3], float found[3]) {
-    lobe_material mapped;
-    lobe_scene *scene = slope_plane(material, normals, outgoing, &mapped);
-    slope_plane_add_sun(scene, incoming, 1);
-    slope_plane_draw(f, scene, filter, setting, found);
-    lobe_scene_destroy(&scene);
-}
 
 // ---------------------------------------------------------------------------------------------
 // Known components
@@ -87,13 +70,15 @@ static void check_ground(fixture *f, const lobe_material *material, const ground
     for (int i = 0; i < 16; i += 3) {
         double outgoing[3], incoming[3], expected[3];
         float found[3];
-        directions_at(i, outgoing, incoming);
-        draw_one(f, material, &map, "multi_leadr", "storage=float32", outgoing, incoming, found);
+        slope_plane_pair(i, outgoing, incoming);
+        slope_plane_draw_lit(f, material, &map, "multi_leadr", "storage=float32", outgoing,
+                             incoming, found);
         shade_multi_leadr(material, &usual, components, g->count, outgoing, incoming, expected);
         for (int k = 0; k < 3; k++)
             if (!(fabs((double)found[k] - expected[k]) <= tolerance * expected[k] + 1e-5))
                 fail_msg("%s, from %g to %g degrees, channel %d: %.7g instead of %.7g", g->name,
-                         angles[i % 4], angles[i / 4], k, (double)found[k], expected[k]);
+                         slope_plane_angles[i % 4], slope_plane_angles[i / 4], k, (double)found[k],
+                         expected[k]);
     }
     lobe_image_free(&map);
 }
@@ -120,14 +105,15 @@ static void one_component_is_leadr(void **state) {
     for (int i = 0; i < 4; i++) {
         double incoming[3];
         float found[3], expected[3];
-        slope_plane_direction(angles[i], 0.9, incoming);
-        draw_one(*state, &material, &rough, "multi_leadr", "components=1", outgoing, incoming,
-                 found);
-        draw_one(*state, &material, &rough, "leadr", NULL, outgoing, incoming, expected);
+        slope_plane_direction(slope_plane_angles[i], 0.9, incoming);
+        slope_plane_draw_lit(*state, &material, &rough, "multi_leadr", "components=1", outgoing,
+                             incoming, found);
+        slope_plane_draw_lit(*state, &material, &rough, "leadr", NULL, outgoing, incoming,
+                             expected);
         for (int k = 0; k < 3; k++)
             if (!(fabsf(found[k] - expected[k]) <= 4e-3f * expected[k] + 1e-6f))
-                fail_msg("%g degrees: %.7g instead of %.7g", angles[i], (double)found[k],
-                         (double)expected[k]);
+                fail_msg("%g degrees: %.7g instead of %.7g", slope_plane_angles[i],
+                         (double)found[k], (double)expected[k]);
     }
     lobe_image_free(&rough);
 }
@@ -143,9 +129,11 @@ static void height_scales_relief(void **state) {
     for (int i = 1; i < 16; i += 5) {
         double outgoing[3], incoming[3];
         float found[3], expected[3];
-        directions_at(i, outgoing, incoming);
-        draw_one(*state, &material, &whole, "multi_leadr", "height=0.5", outgoing, incoming, found);
-        draw_one(*state, &material, &scaled, "multi_leadr", NULL, outgoing, incoming, expected);
+        slope_plane_pair(i, outgoing, incoming);
+        slope_plane_draw_lit(*state, &material, &whole, "multi_leadr", "height=0.5", outgoing,
+                             incoming, found);
+        slope_plane_draw_lit(*state, &material, &scaled, "multi_leadr", NULL, outgoing, incoming,
+                             expected);
         assert_float_equal(found[1], expected[1], 5e-3f * expected[1] + 1e-5f);
     }
     lobe_image_free(&whole);
@@ -228,13 +216,13 @@ static void no_energy_is_gained(void **state) {
             lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, roughness, 1);
             for (int c = 0; c < 3; c++)
                 material.base_colour[c] = 1;
-            const double reflected =
-                slope_plane_furnace(*state, &material, &map, "multi_leadr", NULL, angles[k / 2]);
+            const double reflected = slope_plane_furnace(*state, &material, &map, "multi_leadr",
+                                                         NULL, slope_plane_angles[k / 2]);
             // What leans away from the viewer is behind its mean plane, and dark.
             const double least = strcmp(grounds[i].name, "leaning") == 0 ? 0 : 0.04;
             if (!(reflected >= least && reflected <= 1.003))
                 fail_msg("%s, roughness %g, %g degrees: %g of the light comes back",
-                         grounds[i].name, roughness, angles[k / 2], reflected);
+                         grounds[i].name, roughness, slope_plane_angles[k / 2], reflected);
         }
         lobe_image_free(&map);
     }
@@ -249,7 +237,7 @@ static void light_and_viewer_may_change_places(void **state) {
         for (int i = 1; i < 16; i += 5) {
             double a[3], b[3], above_a = 0, above_b = 0;
             float there[3], back[3];
-            directions_at(i, a, b);
+            slope_plane_pair(i, a, b);
             for (int k = 0; k < g->count; k++) {
                 const double part = (double)g->rows[k] / EXTENT, *s = g->slopes[k];
                 above_a += part * (a[2] - s[0] * a[0] - s[1] * a[1]);
@@ -257,8 +245,8 @@ static void light_and_viewer_may_change_places(void **state) {
             }
             if (above_a < 0.05 || above_b < 0.05)
                 continue;
-            draw_one(*state, &material, &map, "multi_leadr", NULL, a, b, there);
-            draw_one(*state, &material, &map, "multi_leadr", NULL, b, a, back);
+            slope_plane_draw_lit(*state, &material, &map, "multi_leadr", NULL, a, b, there);
+            slope_plane_draw_lit(*state, &material, &map, "multi_leadr", NULL, b, a, back);
             const double one = (double)there[1] / above_b, other = (double)back[1] / above_a;
             if (!(one > 0 && fabs(one - other) <= 4e-3 * one))
                 fail_msg("%s, pair %d: %.6g there, %.6g back", g->name, i, one, other);
