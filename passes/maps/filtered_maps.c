@@ -5,9 +5,10 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/sample_count.h"
+#include "passes/maps/colours/mask_coverage.h"
+#include "passes/maps/colours/metal_means.h"
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
-#include "passes/maps/mask_coverage.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/knobs.h"
@@ -125,6 +126,29 @@ static lobe_resource masked_colours(const filter_context *context, uint32_t inde
     return map.resource;
 }
 
+/// Where a material is metal; once for all instances.
+static lobe_resource metal_means(const filter_context *context, uint32_t index) {
+    lobe_resource *metal = &context->images->metal[index];
+    if (metal->version != 0)
+        return *metal;
+    reduced_map map = passes_metal_means(context, index);
+    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
+    *metal = map.resource;
+    return map.resource;
+}
+
+static void bind_metal_means(const filter_context *context, uint32_t index,
+                             filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const uint32_t kind = passes_metal_means_of(material);
+    passes_appearance_bind(
+        appearance, "metal_map",
+        kind == METAL_MEANS_NONE ? lobe_graph_import_texture(context->graph, context->scene->white)
+                                 : metal_means(context, index),
+        passes_filtered_map_sampler(context, material, passes_lobe_grid(material).map));
+    passes_appearance_specialise(appearance, SPECIALISE_METAL_MEANS, kind);
+}
+
 static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {
     const device_material *material = &context->scene->materials[index];
     return map == MAP_BASE_COLOUR && material->material->alpha_mask
@@ -137,8 +161,11 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
     const device_map *source = &material->maps[map];
     if (!source->use || source->width * source->height == 1)
         return false;
+    const uint32_t metal = passes_metal_means_of(material);
+    if (map == MAP_BASE_COLOUR)
+        return metal != METAL_MEANS_COLOURED;
     // The filter's own map holds the widths; the map may also hold metalness.
-    return map != MAP_WIDTH || material->metallic_varies;
+    return map != MAP_WIDTH || (material->metallic_varies && metal == METAL_MEANS_NONE);
 }
 
 bool passes_filtered_map_is_image(const device_material *material, uint32_t map) {
@@ -200,4 +227,5 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
+    bind_metal_means(context, index, appearance);
 }

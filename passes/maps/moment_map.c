@@ -32,17 +32,10 @@ lobe_format passes_bin_format(const filter_context *context) {
     return formats[(int)passes_knob_choice(context, &passes_knob_bin_storage)];
 }
 
-/// Whether a map is read at the same coordinates as the lobes, and is no finer.
-static bool lies_under_lobes(const device_material *material, uint32_t map) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    const device_map *own = &material->maps[map];
-    return !own->use || (own->width <= grid.width && own->height <= grid.height &&
-                         passes_lobe_grid_shares_coordinates(&grid, own->use));
-}
-
 bool passes_bins_may_have_colours(const device_material *material) {
-    return lies_under_lobes(material, MAP_BASE_COLOUR) &&
-           lies_under_lobes(material, MAP_SPECULAR) && lies_under_lobes(material, MAP_WIDTH);
+    return passes_lies_under_lobes(material, MAP_BASE_COLOUR) &&
+           passes_lies_under_lobes(material, MAP_SPECULAR) &&
+           passes_lies_under_lobes(material, MAP_WIDTH);
 }
 
 bool passes_bin_widths_vary(const device_material *material) {

@@ -102,6 +102,13 @@ bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_textu
            memcmp(use->transform, grid->use->transform, sizeof use->transform) == 0;
 }
 
+bool passes_lies_under_lobes(const device_material *material, uint32_t map) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    const device_map *own = &material->maps[map];
+    return !own->use || (own->width <= grid.width && own->height <= grid.height &&
+                         passes_lobe_grid_shares_coordinates(&grid, own->use));
+}
+
 static float channel(const lobe_image *image, const unsigned char *texel, uint32_t index) {
     uint16_t word;
     float number;

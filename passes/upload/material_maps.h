@@ -35,6 +35,8 @@ lobe_grid passes_lobe_grid(const device_material *material);
 bool passes_lobe_grid_varies(const lobe_grid *grid);
 /// Whether a map has the same layout on the surface as the grid, whatever its number of texels.
 bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use);
+/// Whether a map of a material, if it has that, lies as the grid does, and is no finer.
+bool passes_lies_under_lobes(const device_material *material, uint32_t map);
 
 /// Reads a texel on the host as the device would, except that sRGB is not decoded: missing channels
 /// are 0, alpha is 1. False for formats that no map of lobes has (half floats, sRGB, depth), and

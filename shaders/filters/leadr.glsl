@@ -67,10 +67,6 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
                           moments.covariance);
 }
 
-void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface) {
-    tell_metal_apart(filtered, lobe.microfacets, surface);
-}
-
 // Displaced triangles hide each other by themselves, and pixels show what is drawn as large as it
 // is seen. The area that facets show counts only as far as their slopes are those of relief that is
 // not drawn: of what is finer than the level whose texels are as large as vertices are apart, whose

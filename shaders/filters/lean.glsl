@@ -38,9 +38,6 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
                        surface_point surface) {
 }
 
-void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface) {
-}
-
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
 }
 

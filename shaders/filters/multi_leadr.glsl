@@ -104,10 +104,6 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     return result;
 }
 
-void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface) {
-    tell_metal_apart(filtered, lobe.microfacets, surface);
-}
-
 // Over a square of a level, around the middle of an area.
 map_area square_of_level(map_area area, float level) {
     map_area square = area;

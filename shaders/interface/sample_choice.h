@@ -3,7 +3,7 @@
 
 #include "types.h"
 
-// What shading/picture_key.comp sums over a tile, of KEY_TILE pixels a side.
+// What shading/samples/picture_key.comp sums over a tile, of KEY_TILE pixels a side.
 #define KEY_TILE  64
 #define KEY_GROUP 8 // invocations a side
 struct key_sum {

@@ -28,14 +28,9 @@
 #define BASE_PLANE_FACETS  0 // the plane of the mean normal
 #define BASE_PLANE_SURFACE 1 // the surface's, and GGX without its tails, as in the paper
 
-// Layers of the map of microfacets' base lobes of `leadr` and `multi_leadr`
-// (shaders/filters/leadr/base_lobes.comp): with alpha their width, c the base colour map's texel, m
-// metal's share and w the luminance of F0,
-//
-// [0]  E[w alpha], E[w alpha^2], E[w], E[m]
-// [1]  E[c m], E[m^2]; only with BASE_LOBES_COLOURED
-#define BASE_LOBE_LAYER_WIDTHS 0
-#define BASE_LOBE_LAYER_METAL  1
+// The map of microfacets' base lobes of `leadr` and `multi_leadr` (shaders/filters/leadr/
+// base_lobes.comp) has one layer: with alpha their width and w the luminance of F0,
+//   E[w alpha], E[w alpha^2], E[w].
 
 // uint, BASE_LOBES_...
 #define SPECIALISE_BASE_LOBES (SPECIALISE_FILTER + 12)

@@ -51,6 +51,7 @@
 #define SPECIALISE_MAGNIFIED_MAPS SPECIALISE(36) // uint, bit MAP_...: pixels may use its level 0
 #define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
 #define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
+#define SPECIALISE_METAL_MEANS    SPECIALISE(53) // uint, METAL_MEANS_...
 // The first of the filters' own, which are in their headers; no two of any filters are the same.
 #define SPECIALISE_FILTER SPECIALISE(40)
 
@@ -68,6 +69,11 @@
 #define NORMALS_SIGNED      1
 #define NORMALS_UNSIGNED_XY 2
 #define NORMALS_SIGNED_XY   3
+
+// Whether a map of means (maps/metal_means.comp) has a material's colour and metal.
+#define METAL_MEANS_NONE     0 // no: metal is the same everywhere, or lies apart from the lobes
+#define METAL_MEANS_ALONE    1 // metal: colours are alike everywhere, lie apart or are cut by a mask
+#define METAL_MEANS_COLOURED 2 // both
 
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1

@@ -101,11 +101,4 @@ float fetch_occlusion(surface_point surface) {
     return unoccluded(texel);
 }
 
-base_material filtered_material(surface_point surface, vec3 normal, map_area lobes) {
-    return assemble_material(
-        surface, normal, filtered_base_colour(surface, lobes),
-        filtered_texel(MAP_WIDTH, width_map, width_filtered, surface, lobes),
-        filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface, lobes).rgb);
-}
-
 #endif

@@ -9,8 +9,6 @@
 //                                                 and the moments of all slopes
 //   void mask_by_triangles(inout footprint_lobe, inout slope_moments, map_area, surface_point)
 //                                                 for displaced geometry
-//   void colour_footprint(inout base_material, footprint_lobe, surface_point)
-//                                                 changes the colours of the footprint
 //   void gather_footprint(inout appearance, surface_point, vec3 incoming[4])
 //   vec3 evaluate_footprint(appearance, vec3 outgoing, vec3 incoming, uint light)
 //                                                 like gather_lights and evaluate_appearance
@@ -19,7 +17,7 @@
 #include "shading/slope_maps.glsl"
 
 struct appearance {
-    base_material base;     // level 0, where it may be seen; its colours are the footprint's
+    base_material base;     // level 0, where it may be seen
     base_material filtered; // averaged over the footprint
     slope_moments moments;
     footprint_lobe lobe;
@@ -35,14 +33,15 @@ struct appearance {
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments);
 void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, map_area area,
                        surface_point surface);
-void colour_footprint(inout base_material filtered, footprint_lobe lobe, surface_point surface);
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
 void fetch_base(inout appearance fetched, surface_point surface) {
     fetched.base = level_0_material(
         surface, normals_of_level_0(surface, fetched.level, height_scale()));
-    fetched.base.diffuse = fetched.filtered.diffuse;
+    // Under its own F0, not that of the footprint, where these differ.
+    if (METAL_MEANS == METAL_MEANS_NONE)
+        fetched.base.diffuse = fetched.filtered.diffuse;
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         fetched.base.specular = fetched.filtered.specular;
 }
@@ -65,8 +64,6 @@ appearance fetch_appearance(surface_point surface) {
     result.filtered = filtered_material(surface, result.normal, area);
     if (FILTERED_LOBES && may_see_level_0(lobe_map()))
         fetch_base(result, surface);
-    if (FILTERED_LOBES)
-        colour_footprint(result.filtered, result.lobe, surface);
     if (FILTERED_LOBES && MODEL == MODEL_MICROFACET)
         result.filtered.width =
             base_lobe_of_concentration(DISTRIBUTION, 1.0 / result.moments.base_variance);

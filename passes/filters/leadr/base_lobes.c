@@ -34,15 +34,14 @@ static void read_colours(const filter_context *context, const device_material *m
 }
 
 static reduced_map make_map(const filter_context *context, uint32_t index, uint32_t variation) {
-    const bool coloured = variation == BASE_LOBES_COLOURED;
     const lobe_map_kind kind = {
         .content = "base lobes",
         .pass = "base_lobes",
         .shader = "filters/leadr/base_lobes.comp",
         .seen_shader = "filters/leadr/base_lobes_seen_tiles.comp",
         .binding = "base_lobe_map",
-        .layers = coloured ? BASE_LOBE_LAYER_METAL + 1 : BASE_LOBE_LAYER_METAL,
-        .read_more = coloured ? read_colours : read_no_colours,
+        .layers = 1,
+        .read_more = variation == BASE_LOBES_COLOURED ? read_colours : read_no_colours,
     };
     return passes_lobe_map(context, index, &kind);
 }

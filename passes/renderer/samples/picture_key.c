@@ -21,7 +21,7 @@ lobe_resource passes_picture_key(lobe_graph *graph, lobe_resource radiance, uint
     sums = lobe_pass_write(pass, &(lobe_binding){.name = "sum_block", .resource = sums});
     // Each group of invocations sums a tile.
     lobe_pass_dispatch(pass,
-                       &(lobe_dispatch){.shader = "shading/picture_key.comp",
+                       &(lobe_dispatch){.shader = "shading/samples/picture_key.comp",
                                         .threads = {columns * KEY_GROUP, rows * KEY_GROUP, 1}});
     return sums;
 }

@@ -23,7 +23,7 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray base_lobe_map;
 
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
-void add_point(inout vec4 widths, inout vec4 metal, vec2 point, float weight) {
+void add_point(inout vec3 widths, vec2 point, float weight) {
     float metallic = METALLIC_MAP ? textureLod(width_map, point, 0.0).b : 1.0;
     vec3 colour = BASE_LOBES == BASE_LOBES_COLOURED && has_map(MAP_BASE_COLOUR)
                       ? textureLod(base_colour_map, point, 0.0).rgb
@@ -31,8 +31,7 @@ void add_point(inout vec4 widths, inout vec4 metal, vec2 point, float weight) {
     // glTF 2.0, appendix B.2.
     float reflected = mix(0.04, dot(colour, vec3(0.2126, 0.7152, 0.0722)), metallic);
     float alpha = sqrt(2.0 / max(base_concentration(0, width_at(point)), 1.0));
-    widths += weight * vec4(reflected * vec3(alpha, alpha * alpha, 1.0), metallic);
-    metal += weight * metallic * vec4(colour, metallic);
+    widths += weight * reflected * vec3(alpha, alpha * alpha, 1.0);
 }
 
 void main() {
@@ -42,16 +41,13 @@ void main() {
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);
     vec3 row_weights = box_weights(size.y, position.y);
-    vec4 widths = vec4(0.0);
-    vec4 metal = vec4(0.0);
+    vec3 widths = vec3(0.0);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             float weight = row_weights[y] * column_weights[x] / float(POINTS);
             for (int i = 0; i < POINTS; ++i)
-                add_point(widths, metal, map_point(2 * position + ivec2(x, y), i, size), weight);
+                add_point(widths, map_point(2 * position + ivec2(x, y), i, size), weight);
         }
     }
-    imageStore(base_lobe_map, ivec3(position, BASE_LOBE_LAYER_WIDTHS), widths);
-    if (BASE_LOBES == BASE_LOBES_COLOURED)
-        imageStore(base_lobe_map, ivec3(position, BASE_LOBE_LAYER_METAL), metal);
+    imageStore(base_lobe_map, ivec3(position, 0), vec4(widths, 0.0));
 }

@@ -1,4 +1,4 @@
-#include "passes/maps/mask_coverage.h"
+#include "passes/maps/colours/mask_coverage.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
-#ifndef PASSES_MAPS_MASK_COVERAGE_H
-#define PASSES_MAPS_MASK_COVERAGE_H
+#ifndef PASSES_MAPS_COLOURS_MASK_COVERAGE_H
+#define PASSES_MAPS_COLOURS_MASK_COVERAGE_H
 
 #include "passes/context/filter.h"
 #include "passes/maps/level_reduction.h"

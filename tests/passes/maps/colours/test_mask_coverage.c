@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "passes/maps/mask_coverage.h"
+#include "passes/maps/colours/mask_coverage.h"
 #include "tests/passes/support/mask_reference.h"
 #include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"

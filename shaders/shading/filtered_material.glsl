@@ -1,0 +1,86 @@
+#ifndef FILTERED_MATERIAL_GLSL
+#define FILTERED_MATERIAL_GLSL
+
+// The material of a footprint: what its maps are on average.
+
+#include "shading/filtered_maps.glsl"
+
+layout(constant_id = SPECIALISE_METAL_MEANS) const uint METAL_MEANS = METAL_MEANS_NONE;
+
+layout(LOBE_DESCRIPTOR(46)) uniform sampler2DArray metal_map;
+
+// Means over a footprint of colours c and of metal's share m, factors of the material included.
+struct metal_means {
+    vec3 colour; // E[c]
+    vec3 metal;  // E[c m]
+    float share; // E[m]
+    float square; // E[m^2]
+};
+
+// The layers of the map, from samples of the base maps.
+void layers_of_level_0(vec2 position, out vec4 metal, out vec4 colour) {
+    float share = textureLod(width_map, position, 0.0).b;
+    colour = vec4(METAL_MEANS == METAL_MEANS_COLOURED
+                      ? textureLod(base_colour_map, position, 0.0).rgb
+                      : vec3(1.0),
+                  share);
+    metal = share * vec4(colour.rgb, share);
+}
+
+metal_means fetch_metal_means(surface_point surface, map_area area) {
+    vec4 metal = vec4(0.0), colour = vec4(0.0);
+    for (uint i = 0u; i < probes_of(area); ++i) {
+        vec4 own = fetch_probe(metal_map, METAL_LAYER_METAL, area, i);
+        vec4 own_colour = METAL_MEANS == METAL_MEANS_COLOURED
+                              ? fetch_probe(metal_map, METAL_LAYER_COLOUR, area, i)
+                              : own.rrrr;
+        if (may_see_level_0(lobe_map())) {
+            vec4 finest, finest_colour;
+            layers_of_level_0(probe_position(area, i), finest, finest_colour);
+            own = mix(finest, own, min(area.level, 1.0));
+            own_colour = mix(finest_colour, own_colour, min(area.level, 1.0));
+        }
+        metal += own;
+        colour += own_colour;
+    }
+    metal /= float(probes_of(area));
+    colour /= float(probes_of(area));
+    if (METAL_MEANS == METAL_MEANS_ALONE) {
+        colour.rgb = filtered_base_colour(surface, area).rgb;
+        metal.rgb *= colour.rgb;
+    }
+    vec3 factor = material.base_colour.rgb * (VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0));
+    float metallic = material.metallic;
+    return metal_means(factor * colour.rgb, metallic * factor * metal.rgb, metallic * colour.a,
+                       metallic * metallic * metal.a);
+}
+
+// The mean of diffuse colours c (1 - m) under F0. Shading multiplies it by one minus the mean F0;
+// but what reflects most of the light is metal, which has no diffuse colour: the colour is divided
+// by what the mean F0 lets through, and times what F0 does where the colour is.
+vec3 diffuse_of_means(metal_means means, vec3 specular) {
+    float rest = 1.0 - means.share;
+    // Metal's share where the diffuse colour is: E[m (1 - m)]/E[1 - m].
+    float covering = clamp((means.share - means.square) / max(rest, 1e-3), 0.0, means.share);
+    vec3 own = mix(vec3(0.04), means.metal / max(means.share, 1e-3), covering);
+    return max(means.colour - means.metal, vec3(0.0)) * max(1.0 - own, vec3(0.0)) /
+           max(1.0 - specular, vec3(0.05));
+}
+
+// `lobes`: the area of the map of lobes. The mean of colours times metal's share, where the product
+// of both means is that of neither metal nor what covers it: glTF 2.0, appendix B.2.
+base_material filtered_material(surface_point surface, vec3 normal, map_area lobes) {
+    if (METAL_MEANS == METAL_MEANS_NONE)
+        return assemble_material(
+            surface, normal, filtered_base_colour(surface, lobes),
+            filtered_texel(MAP_WIDTH, width_map, width_filtered, surface, lobes),
+            filtered_texel(MAP_SPECULAR, specular_map, specular_filtered, surface, lobes).rgb);
+    base_material base = assemble_material(
+        surface, normal, vec4(1.0), unfiltered_texel(MAP_WIDTH, width_map, surface), vec3(1.0));
+    metal_means means = fetch_metal_means(surface, lobes);
+    base.specular = means.metal + 0.04 * (1.0 - means.share);
+    base.diffuse = diffuse_of_means(means, base.specular);
+    return base;
+}
+
+#endif

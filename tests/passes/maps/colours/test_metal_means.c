@@ -1,0 +1,132 @@
+// Materials that are metal in places, through the whole renderer: what filters reflect of gold
+// between black and blue paint, against the mean over its texels.
+
+#include <math.h>
+
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+#include "tests/passes/support/shading_reference.h"
+#include "tests/reference/microfacet/microfacet.h"
+#include "tests/reference/vector.h"
+
+enum { EXTENT = 16 };
+
+typedef struct paint_texel {
+    double metallic, colour[3];
+} paint_texel;
+
+/// Colours go with metal, or are those of gold everywhere.
+static paint_texel paint_at(uint32_t texel, bool coloured) {
+    static const paint_texel texels[4] = {
+        {1, {1, 0.75, 0.3}}, {0, {0.02, 0.02, 0.02}}, {1, {1, 0.75, 0.3}}, {0, {0.1, 0.2, 0.8}}};
+    paint_texel found = texels[texel % 4];
+    for (int j = 0; j < 3 && !coloured; j++)
+        found.colour[j] = texels[0].colour[j];
+    return found;
+}
+
+static void add_maps(lobe_scene *scene, lobe_material *material, bool coloured) {
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT),
+               widths = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const paint_texel texel = paint_at(i, true);
+        float *colour = (float *)colours.texels + (size_t)4 * i;
+        float *width = (float *)widths.texels + (size_t)4 * i;
+        for (int j = 0; j < 3; j++)
+            colour[j] = (float)texel.colour[j];
+        width[1] = 1;
+        width[2] = (float)texel.metallic;
+        colour[3] = width[0] = width[3] = 1;
+    }
+    if (coloured) {
+        material->base_colour_map = scene_add_map(scene, colours);
+        material->base_colour_map.nearest = true;
+    } else {
+        lobe_image_free(&colours);
+    }
+    material->metallic_roughness_map = scene_add_map(scene, widths);
+    material->metallic_roughness_map.nearest = true;
+}
+
+/// Over the plane z = 0.
+static void mean_of_texels(const lobe_material *material, bool coloured, const double outgoing[3],
+                           const double incoming[3], double radiance[3]) {
+    static const double normal[3] = {0, 0, 1};
+    const double alpha = (double)material->roughness * (double)material->roughness;
+    double half_vector[3];
+    half_between(incoming, outgoing, half_vector);
+    const double distribution =
+        reference_normal_distribution(LOBE_DISTRIBUTION_BECKMANN, normal, half_vector, alpha);
+    const double visible =
+        reference_masking_shadowing(LOBE_DISTRIBUTION_BECKMANN, incoming[2], outgoing[2], alpha);
+    radiance[0] = radiance[1] = radiance[2] = 0;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const paint_texel texel = paint_at(i, coloured);
+        const double metallic = texel.metallic * (double)material->metallic;
+        for (int j = 0; j < 3; j++) {
+            const double colour = coloured ? texel.colour[j] * (double)material->base_colour[j]
+                                           : (double)material->base_colour[j];
+            const double f0 = 0.04 * (1 - metallic) + colour * metallic;
+            const double fresnel = reference_fresnel(f0, 1, reference_dot(incoming, half_vector));
+            radiance[j] +=
+                (reference_microfacet_specular(fresnel, distribution, visible, outgoing[2]) +
+                 reference_microfacet_diffuse(colour * (1 - metallic), fresnel, incoming[2])) /
+                (EXTENT * EXTENT);
+        }
+    }
+}
+
+typedef struct metal_case {
+    const char *filter;
+    bool coloured;
+    double metallic, tint; ///< factors of the material
+} metal_case;
+
+/// The viewer is above, and the light at an angle from there. World: y is up.
+static void check_case(fixture *f, const metal_case *tested) {
+    static const double angles[] = {6, 30, 60};
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.6, tested->metallic);
+    for (int j = 0; j < 3; j++)
+        material.base_colour[j] = (float)tested->tint;
+    add_maps(scene, &material, tested->coloured);
+    scene_add_square(scene, &material, 40, NULL);
+    scene_look_from(scene, (double[]){sin(0.1), cos(0.1), 0}, 0.2);
+    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    scene_end(scene);
+    for (int i = 0; i < 3; i++) {
+        const double angle = angles[i] * M_PI / 180;
+        const picture_request request = {.filter = tested->filter, .width = 1, .height = 1};
+        double expected[3];
+        scene->lights[0].direction[0] = (float)-sin(angle);
+        scene->lights[0].direction[1] = (float)-cos(angle);
+        lobe_frame frame = draw_scene(f, scene, &request);
+        mean_of_texels(&material, tested->coloured, (double[]){sin(0.1), 0, cos(0.1)},
+                       (double[]){sin(angle), 0, cos(angle)}, expected);
+        for (int j = 0; j < 3; j++) {
+            const double found = (double)pixel_at(&frame.radiance, 0, 0)[j];
+            if (!(fabs(found - expected[j]) <= 0.02 * expected[j]))
+                fail_msg("%s, %g degrees, channel %d: %.6g instead of %.6g", tested->filter,
+                         angles[i], j, found, expected[j]);
+        }
+        lobe_frame_free(&frame);
+    }
+    lobe_scene_destroy(&scene);
+}
+
+/// Of mean colour times mean metal, the highlight is 0.6 of this in red, and 1.2 times in blue.
+static void gold_between_paint_is_the_mean_of_its_texels(void **state) {
+    static const metal_case cases[] = {
+        {"toksvig", true, 1, 1},   {"lean", true, 1, 1},       {"lobes", true, 1, 1},
+        {"toksvig", true, 1, 0.5}, {"toksvig", false, 1, 0.9},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        check_case(*state, &cases[i]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gold_between_paint_is_the_mean_of_its_texels),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
