@@ -13,6 +13,8 @@
 
 // Numbers of the SPIR-V specification.
 enum {
+    OP_CONSTANT = 43,
+    OP_SPECIALISATION_OPERATION = 52,
     OP_DECORATE = 71,
     OP_IMAGE_SAMPLE_EXPLICIT_LOD = 88,
     OP_LOOP_MERGE = 246,
@@ -94,6 +96,55 @@ static void unreachable_code_is_removed(void **state) {
     assert_true(without.words < with.words);
 }
 
+typedef struct numbers {
+    size_t operations, count;
+    uint32_t values[64];
+} numbers;
+
+static void collect(void *user, const uint32_t *words, size_t length) {
+    numbers *found = user;
+    for (size_t i = HEADER_WORDS; i < length; i += words[i] >> 16) {
+        const uint32_t operation = words[i] & 0xffff;
+        found->operations += operation == OP_SPECIALISATION_OPERATION;
+        if (operation == OP_CONSTANT && found->count < 64)
+            found->values[found->count++] = words[i + 3];
+    }
+}
+
+static bool has_number(const numbers *found, uint32_t value) {
+    for (size_t i = 0; i < found->count; i++)
+        if (found->values[i] == value)
+            return true;
+    return false;
+}
+
+static void check_operations(uint32_t a, uint32_t b, bool c) {
+    const engine_shader *shader = find("constant_operations.comp");
+    const spirv_constant constants[] = {{0, a}, {1, b}, {2, c}};
+    numbers found = {0};
+    const spirv_source source = {shader->words, shader->word_count, constants, 3, collect, &found};
+    char message[SPIRV_MESSAGE_SIZE];
+    assert_true(third_party_spirv_specialise(&source, message));
+    assert_int_equal(found.operations, 0);
+    const uint32_t results[] = {a + b, a - b, a * b, a / b, a & b};
+    for (int i = 0; i < 5; i++)
+        assert_true(has_number(&found, results[i]));
+    const bool choices[] = {a > b,  a >= b,      a < b,       a <= b, a == b,
+                            a != b, a == b && c, a == b || c, !c};
+    for (uint32_t i = 0; i < 9; i++) {
+        assert_true(has_number(&found, (choices[i] ? 1001 : 2001) + i));
+        assert_false(has_number(&found, (choices[i] ? 2001 : 1001) + i));
+    }
+}
+
+static void operations_on_constants_are_computed(void **state) {
+    (void)state;
+    check_operations(3000000019, 77777, false);
+    check_operations(77777, 3000000019, true);
+    check_operations(50021, 50021, false);
+    check_operations(50021, 50021, true);
+}
+
 static void damaged_words_are_refused(void **state) {
     (void)state;
     const engine_shader *shader = find("reflection.comp");
@@ -113,6 +164,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         WITH_DEVICE(constants_become_values),
         WITH_DEVICE(unreachable_code_is_removed),
+        WITH_DEVICE(operations_on_constants_are_computed),
         WITH_DEVICE(damaged_words_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

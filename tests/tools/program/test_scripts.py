@@ -108,6 +108,9 @@ def test_cases_are_counted():
     check(count({"stdout": "fine", "result": "OK"}) == ("1 passed, 0 failed\n", 0), "plain")
     check(count({"stdout": tap_text, "result": "OK"}, {"stdout": "", "result": "OK"}) ==
           ("3 passed, 0 failed\n", 0), "both")
+    printed, status = count({"stdout": "ok 1 - a\n# processor time: 12.50\n", "result": "OK"})
+    check(printed.splitlines() == ["12 s of processor time, the most in:", "    12.5 s  one",
+                                   "1 passed, 0 failed"] and status == 0, "times")
 
 
 def test_failures_are_counted():
