@@ -19,7 +19,7 @@
 // Layers of the map of where microfacets are metal (maps/metal_means.comp): with c the texel of the
 // base colour map, or one with METAL_MEANS_ALONE, and m that of metal's share,
 #define METAL_LAYER_METAL  0 // E[c m], E[m^2]
-#define METAL_LAYER_COLOUR 1 // E[c], E[m]; only with METAL_MEANS_COLOURED
+#define METAL_LAYER_COLOUR 1 // E[c], E[m]; not with METAL_MEANS_ALONE
 
 // A material's constants (uniform block, std140). Which parts are read depends on the
 // specialisation of the shader.

@@ -17,21 +17,27 @@ struct metal_means {
     float square; // E[m^2]
 };
 
+bool metal_has_colours() {
+    return METAL_MEANS >= METAL_MEANS_COLOURED;
+}
+
 // The layers of the map, from samples of the base maps.
 void layers_of_level_0(vec2 position, out vec4 metal, out vec4 colour) {
     float share = textureLod(width_map, position, 0.0).b;
-    colour = vec4(METAL_MEANS == METAL_MEANS_COLOURED
-                      ? textureLod(base_colour_map, position, 0.0).rgb
-                      : vec3(1.0),
+    colour = vec4(metal_has_colours() ? textureLod(base_colour_map, position, 0.0).rgb : vec3(1.0),
                   share);
     metal = share * vec4(colour.rgb, share);
 }
 
-metal_means fetch_metal_means(surface_point surface, map_area area) {
+metal_means fetch_metal_means(surface_point surface, map_area lobes) {
+    map_area area = lobes;
+    if (METAL_MEANS == METAL_MEANS_FINER)
+        area = area_of(lobe_map(), max(lobe_map_size(), vec2(textureSize(base_colour_map, 0))),
+                       surface);
     vec4 metal = vec4(0.0), colour = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i) {
         vec4 own = fetch_probe(metal_map, METAL_LAYER_METAL, area, i);
-        vec4 own_colour = METAL_MEANS == METAL_MEANS_COLOURED
+        vec4 own_colour = metal_has_colours()
                               ? fetch_probe(metal_map, METAL_LAYER_COLOUR, area, i)
                               : own.rrrr;
         if (may_see_level_0(lobe_map())) {
@@ -46,7 +52,7 @@ metal_means fetch_metal_means(surface_point surface, map_area area) {
     metal /= float(probes_of(area));
     colour /= float(probes_of(area));
     if (METAL_MEANS == METAL_MEANS_ALONE) {
-        colour.rgb = filtered_base_colour(surface, area).rgb;
+        colour.rgb = filtered_base_colour(surface, lobes).rgb;
         metal.rgb *= colour.rgb;
     }
     vec3 factor = material.base_colour.rgb * (VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0));

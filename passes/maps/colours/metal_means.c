@@ -13,15 +13,49 @@ static bool has_texels(const device_map *map) {
     return map->use && map->width * map->height > 1;
 }
 
+/// Whether a map lies as the lobes do.
+static bool lies_like_lobes(const device_material *material, uint32_t map) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    return has_texels(&material->maps[map]) &&
+           passes_lobe_grid_shares_coordinates(&grid, material->maps[map].use);
+}
+
 uint32_t passes_metal_means_of(const device_material *material) {
-    if (!material->metallic_varies || !has_texels(&material->maps[MAP_WIDTH]) ||
-        !passes_lies_under_lobes(material, MAP_WIDTH))
+    if (!material->metallic_varies || !lies_like_lobes(material, MAP_WIDTH))
         return METAL_MEANS_NONE;
     // Under a mask, colours are those of what it keeps.
-    const bool coloured = has_texels(&material->maps[MAP_BASE_COLOUR]) &&
-                          !material->material->alpha_mask &&
-                          passes_lies_under_lobes(material, MAP_BASE_COLOUR);
-    return coloured ? METAL_MEANS_COLOURED : METAL_MEANS_ALONE;
+    if (material->material->alpha_mask || !lies_like_lobes(material, MAP_BASE_COLOUR))
+        return METAL_MEANS_ALONE;
+    return passes_lies_under_lobes(material, MAP_BASE_COLOUR) ? METAL_MEANS_COLOURED
+                                                              : METAL_MEANS_FINER;
+}
+
+static uint32_t larger(uint32_t a, uint32_t b) {
+    return a > b ? a : b;
+}
+
+/// Texels of the map's base maps.
+static struct lobe_grid_constants extent_of(const device_material *material) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+    if (passes_metal_means_of(material) == METAL_MEANS_FINER) {
+        extent.width = larger(extent.width, material->maps[MAP_BASE_COLOUR].width);
+        extent.height = larger(extent.height, material->maps[MAP_BASE_COLOUR].height);
+    }
+    return extent;
+}
+
+/// Only tiles of maps that have the texels of the lobes are marked.
+static reduced_map declare(const filter_context *context, uint32_t index, uint32_t layers) {
+    const device_material *material = &context->scene->materials[index];
+    const struct lobe_grid_constants extent = extent_of(material);
+    char name[64];
+    snprintf(name, sizeof name, "metal of material %u", index);
+    return passes_metal_means_of(material) == METAL_MEANS_FINER
+               ? passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
+                                            extent.width, extent.height, layers, true)
+               : passes_seen_map_declare(context, index, name, LOBE_FORMAT_RGBA16_FLOAT, layers,
+                                         true);
 }
 
 static void read_map(const filter_context *context, const device_material *material, uint32_t map,
@@ -34,12 +68,9 @@ static void read_map(const filter_context *context, const device_material *mater
 
 reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
-    const bool coloured = passes_metal_means_of(material) == METAL_MEANS_COLOURED;
-    char name[64];
-    snprintf(name, sizeof name, "metal of material %u", index);
+    const bool coloured = passes_metal_means_of(material) != METAL_MEANS_ALONE;
     reduced_map map =
-        passes_seen_map_declare(context, index, name, LOBE_FORMAT_RGBA16_FLOAT,
-                                coloured ? METAL_LAYER_COLOUR + 1 : METAL_LAYER_METAL + 1, true);
+        declare(context, index, coloured ? METAL_LAYER_COLOUR + 1 : METAL_LAYER_METAL + 1);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "metal_means");
     read_map(context, material, MAP_WIDTH, "width_map", pass);
     if (coloured)
@@ -50,15 +81,15 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
                                                  context->graph, context->scene->white)});
     passes_reduced_map_write(&map, pass, "metal_map", 0);
     specialisation_list list = {.graph = context->graph};
-    passes_specialise(&list, SPECIALISE_METAL_MEANS, passes_metal_means_of(material));
+    passes_specialise(&list, SPECIALISE_METAL_MEANS,
+                      coloured ? METAL_MEANS_COLOURED : METAL_MEANS_ALONE);
     passes_specialise(
         &list, SPECIALISE_INTERPOLATED,
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
             (coloured && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
-    const lobe_grid grid = passes_lobe_grid(material);
-    const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
-    lobe_dispatch dispatch = {.shader = context->marks ? "maps/metal_means_seen_tiles.comp"
-                                                       : "maps/metal_means.comp",
+    const struct lobe_grid_constants extent = extent_of(material);
+    lobe_dispatch dispatch = {.shader = map.tiles.version > 0 ? "maps/metal_means_seen_tiles.comp"
+                                                              : "maps/metal_means.comp",
                               .constants = &extent,
                               .constants_size = sizeof extent,
                               .specialisation = list.items,

@@ -25,18 +25,24 @@ static paint_texel paint_at(uint32_t texel, bool coloured) {
     return found;
 }
 
-static void add_maps(lobe_scene *scene, lobe_material *material, bool coloured) {
-    lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT),
+/// `finer`: colours have as many times the texels on each side.
+static void add_maps(lobe_scene *scene, lobe_material *material, bool coloured, uint32_t finer) {
+    const uint32_t side = finer * EXTENT;
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, side, side),
                widths = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
     for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
         const paint_texel texel = paint_at(i, true);
-        float *colour = (float *)colours.texels + (size_t)4 * i;
         float *width = (float *)widths.texels + (size_t)4 * i;
-        for (int j = 0; j < 3; j++)
-            colour[j] = (float)texel.colour[j];
         width[1] = 1;
         width[2] = (float)texel.metallic;
-        colour[3] = width[0] = width[3] = 1;
+        width[0] = width[3] = 1;
+    }
+    for (uint32_t i = 0; i < side * side; i++) {
+        const paint_texel texel = paint_at(i / side / finer * EXTENT + i % side / finer, true);
+        float *colour = (float *)colours.texels + (size_t)4 * i;
+        for (int j = 0; j < 3; j++)
+            colour[j] = (float)texel.colour[j];
+        colour[3] = 1;
     }
     if (coloured) {
         material->base_colour_map = scene_add_map(scene, colours);
@@ -80,6 +86,7 @@ typedef struct metal_case {
     const char *filter;
     bool coloured;
     double metallic, tint; ///< factors of the material
+    uint32_t finer;        ///< as add_maps
 } metal_case;
 
 /// The viewer is above, and the light at an angle from there. World: y is up.
@@ -89,7 +96,7 @@ static void check_case(fixture *f, const metal_case *tested) {
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_BECKMANN, 0.6, tested->metallic);
     for (int j = 0; j < 3; j++)
         material.base_colour[j] = (float)tested->tint;
-    add_maps(scene, &material, tested->coloured);
+    add_maps(scene, &material, tested->coloured, tested->finer);
     scene_add_square(scene, &material, 40, NULL);
     scene_look_from(scene, (double[]){sin(0.1), cos(0.1), 0}, 0.2);
     scene_add_sun(scene, (double[]){0, 1, 0}, 1);
@@ -117,8 +124,8 @@ static void check_case(fixture *f, const metal_case *tested) {
 /// Of mean colour times mean metal, the highlight is 0.6 of this in red, and 1.2 times in blue.
 static void gold_between_paint_is_the_mean_of_its_texels(void **state) {
     static const metal_case cases[] = {
-        {"toksvig", true, 1, 1},   {"lean", true, 1, 1},       {"lobes", true, 1, 1},
-        {"toksvig", true, 1, 0.5}, {"toksvig", false, 1, 0.9},
+        {"toksvig", true, 1, 1, 1},   {"lean", true, 1, 1, 1},       {"lobes", true, 1, 1, 1},
+        {"toksvig", true, 1, 0.5, 1}, {"toksvig", false, 1, 0.9, 1}, {"toksvig", true, 1, 1, 3},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
