@@ -22,16 +22,20 @@ void raise_by_quad(inout float slope, relief_walk walk, float unit) {
     raise(slope, walk, corners, is_upper(walk, 0.5 * (crossing + walk.leave)), walk.leave, unit);
 }
 
+// In periods of the map. The peak opposite of a slope may be a whole period away, and further where
+// the line is oblique: with 1, valleys of slope 1 reflected 1.4 % too much.
+const float REACH = 4.0;
+
 // The tangent of the elevation above which the sky is seen in a horizontal direction, if that is
 // more than `slope`. `along`: quads for each unit of length, `unit`: lengths for each of heights.
 // What raises the horizon by less than `least_rise`, as a slope, is not looked for, nor what is
-// further away than `reach`.
-float horizon(vec3 origin, vec2 along, float unit, float least_rise, float reach, float slope) {
+// further away than REACH times `period`.
+float horizon(vec3 origin, vec2 along, float unit, float least_rise, float period, float slope) {
     relief_walk walk = start_walk(origin, vec3(along, 0.0), 0);
     float rise = unit * (largest_height() - origin.z);
     for (int i = 0; i < WALK_STEPS; ++i) {
         float least = (slope + least_rise) * walk.place;
-        if (rise <= least || walk.place > reach)
+        if (rise <= least || walk.place > REACH * period)
             break;
         if (walk.level > 0 && unit * (node_maximum(walk) - origin.z) > least) {
             --walk.level;
