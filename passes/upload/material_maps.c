@@ -77,6 +77,13 @@ lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t
     };
 }
 
+bool passes_specular_colour_varies(const device_material *material) {
+    if (material->material->model != LOBE_MATERIAL_MICROFACET)
+        return material->maps[MAP_SPECULAR].use != NULL;
+    return material->metallic_varies ||
+           (material->metallic > 0 && material->maps[MAP_BASE_COLOUR].use);
+}
+
 bool passes_device_map_is_interpolated(const device_material *material, uint32_t index) {
     const device_map *map = &material->maps[index];
     return map->use && !map->use->nearest && map->width * map->height > 1;

@@ -15,6 +15,8 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
 /// texel if it has no such map.
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map);
+/// Whether a map may make the specular colour differ from texel to texel.
+bool passes_specular_colour_varies(const device_material *material);
 /// How a map's texels are read, without interpolation between levels.
 lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map);
 /// Whether the material has the map, with more than one texel, and reads it interpolated.

@@ -39,13 +39,15 @@ INTERFACE_OFFSET(survey_extremes, factors, 16)
 // Push constants of moment_refit.
 struct refit_constants {
     uint cells;
-    uint lobes;   // of the sample; of each x, y: place, z: variance, w: weight
-    float points; // that a lobe counts as; see lib/lobe/bin_membership.glsl
-    uint bins;    // not a specialisation constant: one pipeline serves most materials
+    uint lobes;     // of the sample; of each x, y: place, z: variance, w: weight
+    float points;   // that a lobe counts as; see lib/lobe/bin_membership.glsl
+    uint bins;      // not a specialisation constant: one pipeline serves most materials
+    uint has_first; // 0: there are no first bins to start from
 };
-INTERFACE_SIZE(refit_constants, 16)
+INTERFACE_SIZE(refit_constants, 20)
 INTERFACE_OFFSET(refit_constants, lobes, 4)
 INTERFACE_OFFSET(refit_constants, points, 8)
 INTERFACE_OFFSET(refit_constants, bins, 12)
+INTERFACE_OFFSET(refit_constants, has_first, 16)
 
 #endif

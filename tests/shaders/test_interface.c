@@ -308,6 +308,7 @@ static known_member known[] = {
     MEMBER(refit_constants, lobes, 1),
     MEMBER(refit_constants, points, 2),
     MEMBER(refit_constants, bins, 3),
+    MEMBER(refit_constants, has_first, 4),
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
     MEMBER(shared_knobs, level_blend, 2),

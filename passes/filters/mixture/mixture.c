@@ -5,6 +5,7 @@
 #include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/kept/record.h"
+#include "passes/upload/material_maps.h"
 
 static const char *const shapes[] = {"auto", "round", "oval", NULL};
 static const char *const colours[] = {"auto", "mean", "components", NULL};
@@ -47,21 +48,12 @@ static const filter_knob *const knobs[] = {
     NULL,
 };
 
-/// Whether a map makes the specular colour differ from texel to texel.
-static bool colour_varies(const device_material *material) {
-    const lobe_material *source = material->material;
-    if (source->model != LOBE_MATERIAL_MICROFACET)
-        return material->maps[MAP_SPECULAR].use != NULL;
-    return source->metallic > 0 &&
-           (material->maps[MAP_BASE_COLOUR].use || material->metallic_varies);
-}
-
 static bool has_own_colours(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN, OWN };
     const uint32_t choice = passes_knob_choice(context, &colour_knob);
     if (choice == MEAN || !passes_bins_may_have_colours(material))
         return false;
-    return choice == OWN || colour_varies(material);
+    return choice == OWN || passes_specular_colour_varies(material);
 }
 
 static mixture_kind kind_of(const filter_context *context, uint32_t material) {

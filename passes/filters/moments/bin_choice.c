@@ -5,6 +5,7 @@
 
 #include "passes/filters/moments/footprint.h"
 #include "passes/maps/material_patch.h"
+#include "passes/upload/material_maps.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
 // bins. Hard borders are better for lobes that differ in width, soft ones for lobes that differ in
@@ -13,6 +14,12 @@
 // 0.23, 0.24; tablecloth, four bins, 0.07, 0.09, 0.10; rusted metal, three bins, 0.23, 0.13, 0.07.
 static const double points[] = {1.5, 3, 10};
 enum { POINT_NUMBERS = sizeof points / sizeof *points };
+
+// Where the host cannot read the maps, and so try them.
+static const double points_of_unread = 3;
+
+// From this variance of base lobes on, how directions differ hardly shows, and one bin serves.
+static const double broad_variance = 0.2;
 
 // A candidate is good enough if its error is at most `tolerance` times the smallest error, or
 // `negligible` above it.
@@ -187,13 +194,28 @@ static void choose(const device_material *material, const footprint_set *set,
     choose_from(material, candidates, count, choice);
 }
 
+/// Whether all texels have the same broad lobe, but for its direction.
+static bool has_broad_lobes(const device_material *material) {
+    material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
+    const double up[3] = {0, 0, 1};
+    return !material->maps[MAP_WIDTH].use &&
+           passes_material_lobes_of(material->material, up, 1, lobes) == 1 &&
+           passes_plane_variance(material->material, lobes[0].concentration) >= broad_variance;
+}
+
+/// For maps that the host cannot read: what serves most. The device fits the bins.
+static bin_choice choose_unread(const device_material *material, uint32_t bins, bin_colour colour) {
+    const uint32_t count = has_broad_lobes(material) ? 1 : MOST;
+    return (bin_choice){
+        .mixture = {.count = bins ? bins : count, .points = points_of_unread},
+        .own_colours = colour == BIN_COLOUR_OWN ||
+                       (colour == BIN_COLOUR_AUTOMATIC && passes_specular_colour_varies(material))};
+}
+
 bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
                         const lobe_survey *survey, uint32_t bins, bin_colour colour,
                         const lobe_allocator *allocator, bin_choice *choice) {
-    *choice =
-        (bin_choice){.mixture = {.count = 1, .components = {{.weight = 1, .determinant = 1}}},
-                     .own_colours = colour == BIN_COLOUR_OWN ||
-                                    (colour == BIN_COLOUR_AUTOMATIC && material->metallic_varies)};
+    *choice = choose_unread(material, bins, colour);
     if (survey->count == 0)
         return true;
     footprint_set *set = read_footprints(scene, material, survey, allocator);

@@ -17,8 +17,9 @@ typedef struct bin_choice {
 
 /// Fits the mixture that serves some footprints on a material's maps best: patches, and all maps
 /// from afar. `bins`: its number of components [1, MOMENT_MAXIMUM_BINS]; 0: as many as serve about
-/// as well as the best, for the least memory of bins and colours. A single component for all lobes
-/// if the survey has no samples. False: out of memory.
+/// as well as the best, for the least memory of bins and colours. If the survey has no samples, the
+/// components are all zero, and their number and points are those that serve most maps. False: out
+/// of memory.
 bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
                         const lobe_survey *survey, uint32_t bins, bin_colour colour,
                         const lobe_allocator *allocator, bin_choice *choice);

@@ -214,8 +214,7 @@ static bool has_other_texels(const device_scene *scene, const device_material *m
            material->texel_versions[map] != prepared->texel_versions[map];
 }
 
-/// Whether the lobes are others than those that the bins were made for. Bins fitted to nothing,
-/// where the host could not read the texels, are for any.
+/// Whether the lobes are others than those that the bins were fitted to, or there are no such bins.
 static bool needs_refit(const device_scene *scene, const device_material *material,
                         const prepared_moments *prepared) {
     static const uint32_t maps[] = {MAP_NORMAL, MAP_WIDTH, MAP_BASE_COLOUR, MAP_SPECULAR};
@@ -223,7 +222,7 @@ static bool needs_refit(const device_scene *scene, const device_material *materi
     bool other = passes_factor_change(&prepared->factors, &material->values) != FACTORS_KEEP_LOBES;
     for (uint32_t i = 0; i < count; i++)
         other |= has_other_texels(scene, material, prepared, maps[i]);
-    return other && prepared->partition.points > 0;
+    return other || !prepared->partition.has_first;
 }
 
 static lobe_resource bins_of(const filter_context *context, uint32_t material,

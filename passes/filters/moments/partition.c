@@ -150,6 +150,7 @@ static lobe_result set_bins(const lobe_scene *scene, const device_material *mate
         return LOBE_ERROR_OUT_OF_MEMORY;
     partition->own_colours = choice.own_colours;
     partition->points = (float)choice.mixture.points;
+    partition->has_first = survey->count > 0;
     if (request->kind == PARTITION_FITTED)
         set_fitted(survey, &choice.mixture, partition);
     else

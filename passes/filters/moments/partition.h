@@ -10,7 +10,8 @@
 
 /// How a material's lobes are distributed over bins, and the ranges of the bins' moments (all but
 /// those of colours), so that 16 bits hold them precisely: decided once, on the host, from the
-/// material's maps. For other texels of these, moments/refit.h adapts the constants.
+/// material's maps. For other texels of these, or if the host cannot read them, moments/refit.h
+/// makes the constants.
 ///
 /// A fitted partition is a mixture of Gaussians for the whole material, from expectation
 /// maximisation over some thousand of its lobes. Each lobe counts as several points; their number
@@ -21,7 +22,8 @@ typedef struct moment_partition {
     uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
     bool own_colours;       ///< bins have specular colours of their own
     uint32_t width, height; ///< of the base maps, texels: the larger of normal and width map
-    float points;           ///< that a lobe counts as; 0: the host cannot read the maps
+    float points;           ///< that a lobe counts as
+    bool has_first;         ///< false: the host could not read the maps, and has fitted nothing
     struct moment_binning_constants constants;
 } moment_partition;
 

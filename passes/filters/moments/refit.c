@@ -56,7 +56,7 @@ lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
     const uint32_t part = passes_texel_samples(context) > 0 ? SURVEY_PART : 0;
     passes_moment_cell_survey(context, index, request->bright_texels, part, &survey);
     const struct refit_constants constants = {survey.cells, survey.lobe_count, partition->points,
-                                              partition->bins};
+                                              partition->bins, partition->has_first};
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_refit");
     read_inputs(context, index, partition, &survey, pass);
     bins = lobe_pass_write(pass, &(lobe_binding){.name = "binning_block", .resource = bins});

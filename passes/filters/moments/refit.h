@@ -12,8 +12,8 @@ typedef struct refit_request {
 
 /// Adds the passes that fit a partition to other texels of its material's maps: they keep the
 /// number of bins, so that neither memory nor pipelines change, and start from the partition's own
-/// bins, so that the result depends on it and the texels alone. Returns a retained buffer of struct
-/// moment_binning_constants. The host must have been able to read the first texels.
+/// bins, if it has any, so that the result depends on it and the texels alone. Returns a retained
+/// buffer of struct moment_binning_constants.
 lobe_resource passes_moment_refit(const filter_context *context, uint32_t material,
                                   const moment_partition *partition, const refit_request *request);
 

@@ -47,8 +47,9 @@ typedef struct lobe_scene_image {
     /// The host gives the texels in each frame, as a resource on the device: see
     /// lobe_content_giver. Those of `image` are then an example, which is not uploaded: from it
     /// filters learn what to expect (how many lobes or bins they need, and for what range) when the
-    /// scene is set, or the image is listed among its changes. Without any (NULL) filters expect
-    /// everything, which costs precision.
+    /// scene is set, or the image is listed among its changes. Without any (NULL) they expect
+    /// everything: `moments` is about as precise, with more bins than some maps need; `lobes` is
+    /// less precise.
     bool on_device;
     /// Where materials use it as a normal map; not read otherwise. Colours are linear or sRGB as
     /// the format says.

@@ -4,8 +4,9 @@
 // Fits the bins of a material to other texels: expectation maximisation over the sample that
 // moment_cell_survey drew, from the bins that were fitted to the material's first texels, so that a
 // bin stays the same bin from fit to fit. If other starts lead to a better fit, the best of those
-// is taken. Then the units of the bins' moments. In C for a material's first texels:
-// passes/filters/moments/partition.h. One group, all sums in a fixed order.
+// is taken; where the host could not read the first texels, there are only those. Then the units of
+// the bins' moments. In C for a material's first texels: passes/filters/moments/partition.h. One
+// group, all sums in a fixed order.
 //
 // Everything that the group adds up goes through one function, called at one place: lavapipe
 // compiles for seconds what it inlines at several, with a barrier at each.
@@ -235,13 +236,18 @@ const uint BY_DISTANCE = 2; // improve bins of equal steps of the distance from 
 const uint BY_WIDTH = 3;    // and of the logarithm of the variance
 const uint MEASURE = 4;     // nothing: the numbers of the best of all are wanted
 
+// Without first bins, adding bins comes first.
+uint first_step() {
+    return constants.has_first != 0 ? FROM_FIRST : GROW;
+}
+
 struct progress {
     uint step, round;
     uint count;       // of bins
     float likelihood; // of the last round
     float score;      // the same
     float kept_score; // of the bins kept
-    bool gained;      // those are not from the first
+    bool gained;      // those are not from the first bins
     uint iterations;  // of a thread's loops
     // Of all lobes: the middle, how far they are from it, and logarithms of the variance.
     vec2 middle;
@@ -410,9 +416,9 @@ void finish(inout progress at) {
 
 // The step after a fit of all bins.
 void end_step(inout progress at) {
-    bool first = at.step == FROM_FIRST;
+    bool first = at.step == first_step();
     if (first || at.score < at.kept_score * (at.gained ? 1.0 : 1.0 + GAIN)) {
-        at.gained = !first;
+        at.gained = at.step != FROM_FIRST;
         keep_bins(at);
     }
     ++at.step;
@@ -480,8 +486,9 @@ void take_round(inout progress at) {
 void fit(plane_range range) {
     bool fitted = PARTITION == PARTITION_FITTED;
     progress at;
-    at.step = FROM_FIRST;
-    at.count = fitted ? constants.bins : 1; // for hats, one that moves to the mean
+    at.step = first_step();
+    // For hats, one that moves to the mean.
+    at.count = fitted && at.step == FROM_FIRST ? constants.bins : 1;
     at.round = 0;
     at.iterations = 0;
     at.likelihood = at.score = at.kept_score = 0.0;

@@ -37,8 +37,15 @@ static void change_texels(pass_run *run, lobe_scene *scene, const map_case *c) {
                      LOBE_OK);
 }
 
+/// As if the host could not read the first texels.
+static void forget_first(moment_partition *partition) {
+    partition->has_first = false;
+    partition->constants = (struct moment_binning_constants){.largest = {1, 1}};
+}
+
 /// Free `survey` with lobe_release.
-static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base, uint32_t kind) {
+static refit fit_bins(fixture *f, const map_case *c, const lobe_material *base, uint32_t kind,
+                      bool has_first) {
     const partition_request request = {kind, c->bins, BIN_COLOUR_MEAN};
     lobe_scene *scene = scene_begin();
     lobe_material material = *base;
@@ -49,6 +56,8 @@ static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base
     pass_run_begin(&run, f, scene, "moments", (const char *[]){NULL});
     assert_int_equal(passes_moment_partition_make(run.scene, 0, &request, &f->host, &result.first),
                      LOBE_OK);
+    if (!has_first)
+        forget_first(&result.first);
     change_texels(&run, scene, c);
     const refit_request each = {0};
     lobe_resource bins = passes_moment_refit(&run.context, 0, &result.first, &each);
@@ -61,6 +70,10 @@ static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base
     lobe_scene_destroy(&scene);
     assert_int_equal(f->errors, 0);
     return result;
+}
+
+static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base, uint32_t kind) {
+    return fit_bins(f, c, base, kind, true);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -178,6 +191,16 @@ static void fits_are_about_those_of_the_host(void **state) {
     }
 }
 
+static void fits_without_first_bins_are_about_those_of_the_host(void **state) {
+    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.2, 0);
+    for (size_t i = 0; i < CASES; i++) {
+        refit r = fit_bins(*state, &cases[i], &material, PARTITION_FITTED, false);
+        check_likelihood(&r, &cases[i], 0);
+        check_units(&r, &cases[i]);
+        lobe_release(r.survey);
+    }
+}
+
 static void the_smoothest_and_the_roughest_are_fitted(void **state) {
     const lobe_material materials[] = {
         microfacet_material(LOBE_DISTRIBUTION_GGX, 0.04, 0),
@@ -260,7 +283,7 @@ static void hats_are_those_of_the_host(void **state) {
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 100);
     for (int wide = 0; wide < 2; wide++) {
         for (uint32_t kind = PARTITION_HATS; kind <= PARTITION_CAP; kind++) {
-            refit r = refit_bins(*state, &cases[0], &material, kind);
+            refit r = fit_bins(*state, &cases[0], &material, kind, wide);
             const moment_partition host = hosts_partition(*state, &cases[0], &material, kind);
             check_hats(&r, &cases[0], &host);
             lobe_release(r.survey);
@@ -274,6 +297,7 @@ static void hats_are_those_of_the_host(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fits_are_about_those_of_the_host),
+        cmocka_unit_test(fits_without_first_bins_are_about_those_of_the_host),
         cmocka_unit_test(the_smoothest_and_the_roughest_are_fitted),
         cmocka_unit_test(four_lobes_of_a_texel_are_fitted_to_six_bins),
         cmocka_unit_test(refits_are_the_same_in_every_run),
