@@ -5,6 +5,7 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/sample_count.h"
+#include "passes/maps/colours/colour_normals.h"
 #include "passes/maps/colours/mask_coverage.h"
 #include "passes/maps/colours/metal_means.h"
 #include "passes/maps/level_reduction.h"
@@ -149,6 +150,29 @@ static void bind_metal_means(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_METAL_MEANS, kind);
 }
 
+/// How colours go with normals; once for all instances.
+static lobe_resource colour_normals(const filter_context *context, uint32_t index) {
+    lobe_resource *normals = &context->images->normals[index];
+    if (normals->version != 0)
+        return *normals;
+    reduced_map map = passes_colour_normals(context, index);
+    context->images->bytes += passes_reduced_map_bytes(&map, passes_filtered_map_format(context));
+    *normals = map.resource;
+    return map.resource;
+}
+
+static void bind_colour_normals(const filter_context *context, uint32_t index,
+                                filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const bool has_map = passes_has_colour_normals(context, index);
+    passes_appearance_bind(
+        appearance, "colour_normal_map",
+        has_map ? colour_normals(context, index)
+                : lobe_graph_import_texture(context->graph, context->scene->white),
+        passes_filtered_map_sampler(context, material, passes_lobe_grid(material).map));
+    passes_appearance_specialise(appearance, SPECIALISE_COLOUR_NORMALS, has_map);
+}
+
 static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {
     const device_material *material = &context->scene->materials[index];
     return map == MAP_BASE_COLOUR && material->material->alpha_mask
@@ -228,4 +252,5 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
                                  magnified_maps(context, index));
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
     bind_metal_means(context, index, appearance);
+    bind_colour_normals(context, index, appearance);
 }

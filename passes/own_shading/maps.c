@@ -54,7 +54,7 @@ static bool allocate_tables(lobe_maps *maps) {
     maps->materials =
         passes_material_scene_create(scene, maps->parameters.vertex_colours, allocator);
     maps->filtered =
-        lobe_allocate(allocator, scene->image_count + 2 * materials + 1, sizeof *maps->filtered);
+        lobe_allocate(allocator, scene->image_count + 3 * materials + 1, sizeof *maps->filtered);
     maps->constants = lobe_allocate(allocator, materials + 1, sizeof *maps->constants);
     maps->closed = lobe_allocate(allocator, materials + 1, sizeof *maps->closed);
     maps->waves = lobe_allocate(allocator, materials + 1, sizeof *maps->waves);
@@ -64,10 +64,11 @@ static bool allocate_tables(lobe_maps *maps) {
 /// Points into the object and to `images`.
 static filter_context context_of(lobe_maps *maps, filtered_images *images) {
     const lobe_scene *scene = &maps->materials->scene;
-    *images =
-        (filtered_images){.resources = maps->filtered,
-                          .masked = maps->filtered + scene->image_count,
-                          .metal = maps->filtered + scene->image_count + scene->material_count};
+    lobe_resource *of_materials = maps->filtered + scene->image_count;
+    *images = (filtered_images){.resources = maps->filtered,
+                                .masked = of_materials,
+                                .metal = of_materials + scene->material_count,
+                                .normals = of_materials + 2 * scene->material_count};
     return (filter_context){
         .graph = maps->graph,
         .scene = maps->uploaded,
@@ -215,7 +216,7 @@ static void declare(lobe_maps *maps) {
     const filter_context context = context_of(maps, &images);
     const environment_work work = {.state = &maps->environment};
     memset(maps->filtered, 0,
-           (scene->image_count + 2 * scene->material_count) * sizeof *maps->filtered);
+           (scene->image_count + 3 * scene->material_count) * sizeof *maps->filtered);
     passes_given_maps_take(&context, maps->parameters.give_content, maps->parameters.user);
     const environment_light light = passes_environment_light_build(&context, &work);
     lobe_pass *pass = lobe_graph_add_pass(maps->graph, LOBE_PASS_EXPORT, "maps");

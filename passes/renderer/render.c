@@ -78,6 +78,7 @@ static void fill_context(rendering *r, const lobe_filter *filter) {
     r->images.resources = renderer->filtered_images;
     r->images.masked = renderer->filtered_images + renderer->scene->scene->image_count;
     r->images.metal = r->images.masked + renderer->scene->scene->material_count;
+    r->images.normals = r->images.metal + renderer->scene->scene->material_count;
     r->context = (filter_context){
         .graph = renderer->graph,
         .scene = renderer->scene,

@@ -1,3 +1,4 @@
+#include "passes/upload/colour_correlation.h"
 #include "passes/upload/device_scene_parts.h"
 
 #include <math.h>
@@ -328,6 +329,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);
+        passes_colour_correlation_find(scene, &before, material);
         status = store_constants(scene->graph, material);
     }
     if (status == LOBE_OK) {

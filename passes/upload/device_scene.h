@@ -27,6 +27,13 @@ typedef struct image_metal {
     float value;
 } image_metal;
 
+/// Whether diffuse colours go with normals (passes/upload/colour_correlation.h).
+typedef struct colour_correlation {
+    bool follow_normals;
+    int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none
+    uint32_t texel_versions[3]; ///< of these
+} colour_correlation;
+
 typedef struct device_material {
     const lobe_material *material;
     lobe_buffer *constants;
@@ -48,6 +55,7 @@ typedef struct device_material {
     lobe_image height_normal_texels;
     lobe_texture_use height; ///< a copy of the height map's: not read by shading
     float height_scale;
+    colour_correlation colours;
     bool metallic_varies; ///< the width map determines where the material is metal
     float metallic;       ///< its metallic factor, times the map's where that is constant
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,

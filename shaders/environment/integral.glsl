@@ -46,7 +46,9 @@ vec3 integrated_environment(inout appearance fetched, surface_point surface) {
         gather_lights(fetched, surface, incoming);
         for (int k = 0; k < 4; ++k)
             sum += lights[k].irradiance *
-                   evaluate_appearance(fetched, surface, incoming[k], uint(k));
+                   add_colour_normals(
+                       evaluate_appearance(fetched, surface, incoming[k], uint(k)), surface,
+                       incoming[k]);
     }
     return sum;
 }
@@ -55,7 +57,8 @@ vec3 integrated_environment(inout appearance fetched, surface_point surface) {
 vec3 environment_light(inout appearance fetched, surface_point surface) {
     vec3 reflected = ENVIRONMENT_METHOD == ENVIRONMENT_EXACT
                          ? integrated_environment(fetched, surface)
-                         : reflect_environment(fetched, surface);
+                         : add_colour_normals_of_environment(
+                               reflect_environment(fetched, surface), surface);
     return fetch_occlusion(surface) * reflected;
 }
 

@@ -3,6 +3,7 @@
 
 // What a host calls, whatever the filter. Included after it.
 
+#include "shading/colour_normals.glsl"
 #ifdef LOBE_ENVIRONMENT
 #include "environment/integral.glsl"
 #endif
@@ -10,8 +11,10 @@
 #define lobe_appearance appearance
 
 // The appearance of the surface's footprint. `kept` is false where a mask cuts the surface away,
-// `normal` is the mean of the texels' (in the tangent frame).
+// `normal` is the mean of the texels' (in the tangent frame). What follows is about the surface that
+// was fetched last.
 lobe_appearance lobe_fetch(lobe_surface surface) {
+    fetch_colour_normals(surface);
     return fetch_appearance(surface);
 }
 
@@ -30,7 +33,9 @@ void lobe_gather(inout lobe_appearance fetched, lobe_surface surface, vec3 towar
 // in it: the host multiplies by its own.
 vec3 lobe_evaluate_gathered(lobe_appearance fetched, lobe_surface surface, vec3 towards,
                             uint index) {
-    return evaluate_appearance(fetched, surface, towards * surface.world_from_tangent, index);
+    vec3 incoming = towards * surface.world_from_tangent;
+    return add_colour_normals(evaluate_appearance(fetched, surface, incoming, index), surface,
+                              incoming);
 }
 
 // Both for one light.

@@ -22,6 +22,7 @@
 #include "filter.glsl"
 #include "shading/lights/punctual_lights.glsl"
 #include "shading/shadows/shadow_maps.glsl"
+#include "shading/colour_normals.glsl"
 #ifdef ENVIRONMENT
 #include "environment/integral.glsl"
 #endif
@@ -55,8 +56,9 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface, drawn_p
             vec3 irradiance = light_irradiance(first + i, interpolated_position, direction);
             if (SHADOWS)
                 irradiance *= light_visibility(first + i, interpolated_position, direction, plane);
+            vec3 own = direction * surface.world_from_tangent;
             sum += irradiance *
-                   evaluate_appearance(fetched, surface, direction * surface.world_from_tangent, i);
+                   add_colour_normals(evaluate_appearance(fetched, surface, own, i), surface, own);
         }
     }
     return sum;
@@ -70,6 +72,8 @@ void main() {
     appearance fetched = fetch_appearance(surface);
     if (ALPHA_MASK && !fetched.kept)
         discard;
+
+    fetch_colour_normals(surface);
 
     // Shades even for the views of lobes and levels, which count what shading used.
     vec3 value = vec3(0.0);

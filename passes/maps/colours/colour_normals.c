@@ -1,0 +1,29 @@
+#include "passes/maps/colours/colour_normals.h"
+
+#include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/material.h"
+
+bool passes_has_colour_normals(const filter_context *context, uint32_t index) {
+    return context->scene->materials[index].colours.follow_normals &&
+           !context->filter->reads_heights;
+}
+
+static void read_colours(const filter_context *context, const device_material *material,
+                         lobe_pass *pass, specialisation_list *list) {
+    (void)list;
+    passes_base_map_read(context, material, MAP_BASE_COLOUR, "base_colour_map", pass);
+}
+
+reduced_map passes_colour_normals(const filter_context *context, uint32_t index) {
+    static const lobe_map_kind kind = {
+        .content = "normals of colours",
+        .pass = "colour_normals",
+        .shader = "maps/colour_normals.comp",
+        .seen_shader = "maps/colour_normals_seen_tiles.comp",
+        .binding = "colour_normal_map",
+        .layers = COLOUR_NORMALS_LAYERS,
+        .read_more = read_colours,
+    };
+    return passes_lobe_map(context, index, &kind);
+}

@@ -1,0 +1,117 @@
+#ifndef COLOUR_NORMALS_GLSL
+#define COLOUR_NORMALS_GLSL
+
+// What diffuse colours that go with normals reflect beyond the product of means, which filters
+// evaluate. Of normally distributed normals the mean of d max(<n, l>, 0) is
+//   E[d] E[max(<n, l>, 0)] + <Cov(d, n), l> P(<n, l> > 0):
+// Stein, 1981, Estimation of the Mean of a Multivariate Normal Distribution, lemma 1. For light
+// from all around the same holds with the gradient of irradiance in place of l and P.
+//
+// Included after the filter. One that filters no maps has nothing to add.
+
+#ifdef FILTERED_MAPS_GLSL
+
+#include "lib/microfacet/microfacet.glsl"
+#include "lib/lobe/half_vector_lobe.glsl"
+
+#ifdef ENVIRONMENT
+#include "environment/irradiance.glsl"
+#endif
+
+layout(constant_id = SPECIALISE_COLOUR_NORMALS) const bool COLOUR_NORMALS = false;
+
+layout(LOBE_DESCRIPTOR(47)) uniform sampler2DArray colour_normal_map;
+
+// Facets of closed surfaces are masked one by one, of which this knows nothing.
+const bool COLOURS_TURN = COLOUR_NORMALS && DIFFUSE && !CLOSED;
+
+struct colour_normals {
+    mat3 covariance; // columns: of each channel with the normal
+    vec3 mean;       // normal
+    float deviation; // of normals, in any direction across the mean
+};
+colour_normals drawn_colours;
+
+void fetch_colour_normals(surface_point surface) {
+    if (!COLOURS_TURN)
+        return;
+    map_area area = lobe_area(surface);
+    vec3 factor = material.base_colour.rgb * (VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0));
+    if (MODEL == MODEL_MICROFACET && !METALLIC_MAP)
+        factor *= 1.0 - material.metallic;
+    // A texel of level 0 has one colour and one normal.
+    if (may_see_level_0(lobe_map()))
+        factor *= clamp(area.level, 0.0, 1.0);
+    vec3 mean = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN).xyz;
+    for (uint k = 0u; k < 3u; ++k) {
+        vec4 own = filtered_layer(colour_normal_map, area, k);
+        drawn_colours.covariance[k] = factor[k] * (own.xyz - own.w * mean);
+    }
+    drawn_colours.mean = mean;
+    drawn_colours.deviation = sqrt(max(0.5 - 0.5 * dot(mean, mean), 1e-4));
+}
+
+// Phi, as a logistic function.
+float part_facing(vec3 incoming) {
+    return 1.0 / (1.0 + exp(-1.702 * dot(drawn_colours.mean, incoming) / drawn_colours.deviation));
+}
+
+// `reflected`: reflectance times cosine of the means.
+vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
+    if (!COLOURS_TURN || incoming.z <= 0.0)
+        return reflected;
+    vec3 let_through = vec3(1.0);
+    if (MODEL == MODEL_MICROFACET)
+        let_through -= fresnel_schlick(vec3(0.04), vec3(1.0),
+                                       dot(incoming, half_vector(incoming, surface.outgoing)));
+    return max(reflected + (INVERSE_PI * part_facing(incoming)) * let_through *
+                               (incoming * drawn_colours.covariance),
+               0.0);
+}
+
+#ifdef ENVIRONMENT
+// The irradiance over pi grows by this much as normals turn towards a direction across the mean.
+vec3 irradiance_growth(surface_point surface, float size, vec3 axis, vec3 across) {
+    const float STEP = 0.25;
+    return (mean_irradiance(surface, size * normalize(axis + STEP * across)) -
+            mean_irradiance(surface, size * normalize(axis - STEP * across))) /
+           (2.0 * STEP);
+}
+
+// `reflected`: radiance of the environment by the means. Along the mean it is the length that grows:
+// normals spread less.
+vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
+    const float STEP = 0.25;
+    if (!COLOURS_TURN)
+        return reflected;
+    float size = max(length(drawn_colours.mean), 1e-4);
+    vec3 axis = drawn_colours.mean / size;
+    vec3 first = perpendicular_towards(axis, vec3(1.0, 0.0, 0.0)), second = cross(axis, first);
+    vec3 along = (mean_irradiance(surface, size * axis) -
+                  mean_irradiance(surface, max(size - STEP, 0.0) * axis)) /
+                 STEP;
+    reflected += along * (axis * drawn_colours.covariance) +
+                 irradiance_growth(surface, size, axis, first) *
+                     (first * drawn_colours.covariance) +
+                 irradiance_growth(surface, size, axis, second) *
+                     (second * drawn_colours.covariance);
+    return max(reflected, 0.0);
+}
+#endif
+
+#else
+
+void fetch_colour_normals(surface_point surface) {
+}
+
+vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
+    return reflected;
+}
+
+vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
+    return reflected;
+}
+
+#endif
+
+#endif

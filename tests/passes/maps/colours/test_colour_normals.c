@@ -1,0 +1,162 @@
+// Diffuse colours that go with normals, through the whole renderer: of a rough field whose slopes
+// to one side are red and to the other side blue, against the mean over its texels.
+
+#include <math.h>
+#include <string.h>
+
+#include "tests/passes/support/picture.h"
+#include "tests/passes/support/scene_builder.h"
+
+enum { EXTENT = 32 };
+
+typedef struct field_texel {
+    double normal[3], colour[3];
+} field_texel;
+
+/// Independent slopes; `follow`: how much of the colours follows these.
+static field_texel texel_at(const lobe_image *normals, uint32_t i, double follow) {
+    const float *stored = (const float *)normals->texels + (size_t)4 * i;
+    field_texel texel;
+    double length = 0;
+    for (int j = 0; j < 3; j++) {
+        texel.normal[j] = 2 * (double)stored[j] - 1;
+        length += texel.normal[j] * texel.normal[j];
+    }
+    for (int j = 0; j < 3; j++)
+        texel.normal[j] /= sqrt(length);
+    texel.colour[0] = 0.4 + follow * 0.5 * texel.normal[0];
+    texel.colour[1] = 0.3;
+    texel.colour[2] = 0.4 - follow * 0.5 * texel.normal[0];
+    return texel;
+}
+
+static lobe_material lambert(lobe_scene *scene, const lobe_image *normals, double follow) {
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 10);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT),
+               copy = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const field_texel texel = texel_at(normals, i, follow);
+        for (int j = 0; j < 4; j++) {
+            ((float *)copy.texels)[4 * i + j] = ((const float *)normals->texels)[4 * i + j];
+            ((float *)colours.texels)[4 * i + j] = j < 3 ? (float)texel.colour[j] : 1;
+        }
+    }
+    for (int j = 0; j < 3; j++) {
+        material.base_colour[j] = 1;
+        material.lobes[0].colour[j] = 0;
+    }
+    material.normal_map = scene_add_map(scene, copy);
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.normal_map.nearest = material.base_colour_map.nearest = true;
+    return material;
+}
+
+static void check_colour(const lobe_frame *frame, const double expected[3], double bound,
+                         const char *filter, double angle) {
+    for (int j = 0; j < 3; j++) {
+        const double found = (double)pixel_at(&frame->radiance, 0, 0)[j];
+        if (!(fabs(found - expected[j]) <= bound * expected[j]))
+            fail_msg("%s, %g degrees, channel %d: %.6g instead of %.6g", filter, angle, j, found,
+                     expected[j]);
+    }
+}
+
+static lobe_scene *field(const lobe_image *normals, double follow) {
+    lobe_scene *scene = scene_begin();
+    const lobe_material material = lambert(scene, normals, follow);
+    scene_add_square(scene, &material, 40, NULL);
+    scene_look_from(scene, (double[]){0, 1, 0.01}, 0.2);
+    return scene;
+}
+
+/// World: y is up, x along u.
+static void check_suns(fixture *f, const char *filter, double follow) {
+    static const double angles[] = {-60, -30, 0, 45};
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    lobe_scene *scene = field(&normals, follow);
+    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    scene_end(scene);
+    for (int i = 0; i < 4; i++) {
+        const double angle = angles[i] * M_PI / 180;
+        const picture_request request = {.filter = filter, .width = 1, .height = 1};
+        double expected[3] = {0};
+        for (uint32_t k = 0; k < EXTENT * EXTENT; k++) {
+            const field_texel texel = texel_at(&normals, k, follow);
+            const double cosine = texel.normal[0] * sin(angle) + texel.normal[2] * cos(angle);
+            for (int j = 0; j < 3; j++)
+                expected[j] += texel.colour[j] * fmax(cosine, 0) / (M_PI * EXTENT * EXTENT);
+        }
+        scene->lights[0].direction[0] = (float)-sin(angle);
+        scene->lights[0].direction[1] = (float)-cos(angle);
+        lobe_frame frame = draw_scene(f, scene, &request);
+        check_colour(&frame, expected, 0.02, filter, angles[i]);
+        lobe_frame_free(&frame);
+    }
+    lobe_scene_destroy(&scene);
+    lobe_image_free(&normals);
+}
+
+/// From 60 degrees the product of means has a fifth less red on one side, and more on the other.
+static void light_from_a_side_shows_its_colours(void **state) {
+    check_suns(*state, "toksvig", 1);
+    check_suns(*state, "moments", 1);
+    check_suns(*state, "toksvig", -1);
+}
+
+/// Brighter towards x. A Lambert surface of normal n has the irradiance pi (1 + 2/3 n_x).
+static void shine(const double direction[3], float radiance[3]) {
+    for (int j = 0; j < 3; j++)
+        radiance[j] = (float)(1 + direction[0]);
+}
+
+static void skies_show_their_side(void **state) {
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    lobe_scene *scene = field(&normals, 1);
+    const picture_request request = {
+        .filter = "toksvig", .settings = {"env_size=16"}, .width = 1, .height = 1};
+    double expected[3] = {0};
+    scene_surround(scene, 16, shine);
+    scene_end(scene);
+    for (uint32_t k = 0; k < EXTENT * EXTENT; k++) {
+        const field_texel texel = texel_at(&normals, k, 1);
+        // Without the light from below, see shaders/environment/irradiance.glsl.
+        const double light = 1 + 2 * texel.normal[0] / 3 - (0.5 - 0.5 * texel.normal[2]);
+        for (int j = 0; j < 3; j++)
+            expected[j] += texel.colour[j] * light / (EXTENT * EXTENT);
+    }
+    lobe_frame frame = draw_scene(*state, scene, &request);
+    check_colour(&frame, expected, 0.02, "toksvig", 0);
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+    lobe_image_free(&normals);
+}
+
+static size_t passes_named(fixture *f, const lobe_image *normals, double follow) {
+    lobe_scene *scene = field(normals, follow);
+    const picture_request request = {.filter = "toksvig", .width = 1, .height = 1};
+    size_t count = 0;
+    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    scene_end(scene);
+    lobe_frame frame = draw_scene(f, scene, &request);
+    for (size_t i = 0; i < frame.pass_count; i++)
+        count += strcmp(frame.passes[i].name, "colour_normals") == 0;
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+    return count;
+}
+
+static void colours_that_do_not_follow_need_no_map(void **state) {
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    assert_int_equal(passes_named(*state, &normals, 1), 1);
+    assert_int_equal(passes_named(*state, &normals, 0.01), 0);
+    lobe_image_free(&normals);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(light_from_a_side_shows_its_colours),
+        cmocka_unit_test(skies_show_their_side),
+        cmocka_unit_test(colours_that_do_not_follow_need_no_map),
+    };
+    return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
+}
