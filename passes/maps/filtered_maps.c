@@ -156,7 +156,7 @@ static lobe_resource colour_normals(const filter_context *context, uint32_t inde
     if (normals->version != 0)
         return *normals;
     reduced_map map = passes_colour_normals(context, index);
-    context->images->bytes += passes_reduced_map_bytes(&map, passes_filtered_map_format(context));
+    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
     *normals = map.resource;
     return map.resource;
 }

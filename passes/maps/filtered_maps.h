@@ -3,8 +3,8 @@
 
 #include "passes/context/filter.h"
 
-/// Adds what shaders/shading/filtered_material.glsl reads: the colour maps of a material, filtered
-/// linearly (each image once for all materials; the base colours under a mask as in
+/// Adds what shaders/shading/colours/filtered_material.glsl reads: the colour maps of a material,
+/// filtered linearly (each image once for all materials; the base colours under a mask as in
 /// passes/maps/colours/mask_coverage.h, with metal as in passes/maps/colours/metal_means.h),
 /// how they go with normals (passes/maps/colours/colour_normals.h), and the knobs of the footprint.
 void passes_filtered_maps_build(const filter_context *context, uint32_t material,

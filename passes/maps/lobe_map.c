@@ -8,47 +8,6 @@
 #include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/specialisation.h"
 
-void passes_base_map_read(const filter_context *context, const device_material *material,
-                          uint32_t map, const char *name, lobe_pass *pass) {
-    lobe_pass_read(pass, &(lobe_binding){.name = name,
-                                         .resource = passes_device_map_import(
-                                             context->graph, context->scene, material, map),
-                                         .sampler = passes_device_map_sampler(material, map)});
-}
-
-void passes_base_maps_read(const filter_context *context, const device_material *material,
-                           bool colours, lobe_pass *pass) {
-    static const char *const names[] = {[MAP_NORMAL] = "normal_map", [MAP_WIDTH] = "width_map"};
-    for (uint32_t map = MAP_NORMAL; map <= MAP_WIDTH; map++)
-        passes_base_map_read(context, material, map, names[map], pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "material_block",
-                                         .resource = lobe_graph_import_buffer(
-                                             context->graph, colours ? material->colour_constants
-                                                                     : material->map_constants)});
-}
-
-void passes_colour_maps_read(const filter_context *context, const device_material *material,
-                             bool reads, lobe_pass *pass) {
-    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
-    static const char *const names[] = {"base_colour_map", "specular_map"};
-    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
-    for (int i = 0; i < 2; i++) {
-        if (reads)
-            passes_base_map_read(context, material, maps[i], names[i], pass);
-        else
-            lobe_pass_read(pass, &(lobe_binding){.name = names[i], .resource = white});
-    }
-}
-
-void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
-    // Without those that no map of lobes reads.
-    const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION;
-    passes_lobes_specialise(material, material->map_bits & ~unread, list);
-    passes_specialise(list, SPECIALISE_INTERPOLATED,
-                      passes_device_map_is_interpolated(material, MAP_NORMAL) ||
-                          passes_device_map_is_interpolated(material, MAP_WIDTH));
-}
-
 void passes_lobe_map_bind(const filter_context *context, uint32_t material, const char *binding,
                           const reduced_map *map, lobe_format format,
                           filtered_appearance *appearance) {

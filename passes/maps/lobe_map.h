@@ -2,26 +2,11 @@
 #define PASSES_MAPS_LOBE_MAP_H
 
 #include "passes/context/filter.h"
-#include "passes/context/material_specialisation.h"
+#include "passes/maps/base_maps.h"
 #include "passes/maps/level_reduction.h"
 
 /// Maps that filters make of a material's lobes: built from its lobe_grid, reduced to all levels,
 /// and bound to the shading with the wrapping of the grid.
-
-/// Binds what shaders/maps/base_maps.glsl reads: a material's constants, normal and width map.
-/// `colours`: the shader also reads the constants' colours and metal, and depends on them.
-void passes_base_maps_read(const filter_context *context, const device_material *material,
-                           bool colours, lobe_pass *pass);
-/// Binds one map of a material with its sampler, as shading reads it.
-void passes_base_map_read(const filter_context *context, const device_material *material,
-                          uint32_t map, const char *name, lobe_pass *pass);
-/// The constants of the material and of shaders/maps/base_maps.glsl.
-void passes_base_maps_specialise(const device_material *material, specialisation_list *list);
-
-/// The colour maps, or white where the shader's constants say that it reads none: it then depends
-/// on no map of colours.
-void passes_colour_maps_read(const filter_context *context, const device_material *material,
-                             bool reads, lobe_pass *pass);
 
 /// Binds a map of a material's lobes to the shading, counts its size, and adds the filtered colour
 /// maps. `map`: NULL if there is nothing to filter; a white texel is bound instead.

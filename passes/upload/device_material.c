@@ -1,4 +1,4 @@
-#include "passes/upload/colour_correlation.h"
+#include "passes/upload/colours/colour_correlation.h"
 #include "passes/upload/device_scene_parts.h"
 
 #include <math.h>

@@ -27,7 +27,7 @@ typedef struct image_metal {
     float value;
 } image_metal;
 
-/// Whether diffuse colours go with normals (passes/upload/colour_correlation.h).
+/// Whether diffuse colours go with normals (passes/upload/colours/colour_correlation.h).
 typedef struct colour_correlation {
     bool follow_normals;
     int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none

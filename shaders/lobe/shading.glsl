@@ -3,7 +3,7 @@
 
 // What a host calls, whatever the filter. Included after it.
 
-#include "shading/colour_normals.glsl"
+#include "shading/colours/colour_normals.glsl"
 #ifdef LOBE_ENVIRONMENT
 #include "environment/integral.glsl"
 #endif
@@ -11,8 +11,8 @@
 #define lobe_appearance appearance
 
 // The appearance of the surface's footprint. `kept` is false where a mask cuts the surface away,
-// `normal` is the mean of the texels' (in the tangent frame). What follows is about the surface that
-// was fetched last.
+// `normal` is the mean of the texels' (in the tangent frame). What follows is about the surface
+// that was fetched last.
 lobe_appearance lobe_fetch(lobe_surface surface) {
     fetch_colour_normals(surface);
     return fetch_appearance(surface);

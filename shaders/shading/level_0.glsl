@@ -5,7 +5,7 @@
 // Normals that are interpolated between texels turn inside the pixel, which widens the lobes about
 // them; less and less as the map is magnified.
 
-#include "shading/filtered_material.glsl"
+#include "shading/colours/filtered_material.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 
 layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;

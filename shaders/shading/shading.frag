@@ -22,7 +22,7 @@
 #include "filter.glsl"
 #include "shading/lights/punctual_lights.glsl"
 #include "shading/shadows/shadow_maps.glsl"
-#include "shading/colour_normals.glsl"
+#include "shading/colours/colour_normals.glsl"
 #ifdef ENVIRONMENT
 #include "environment/integral.glsl"
 #endif

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "passes/upload/material_colours.h"
+#include "passes/upload/colours/material_colours.h"
 
 /// A Gaussian: peak exp(-1/2 d^T inverse d).
 typedef struct bell {

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "passes/upload/material_colours.h"
+#include "passes/upload/colours/material_colours.h"
 
 double passes_plane_variance(const lobe_material *material, double concentration) {
     if (material->distribution != LOBE_DISTRIBUTION_GGX)

@@ -11,7 +11,7 @@
 /// from heights, and lobes are filtered at all.
 bool passes_has_colour_normals(const filter_context *context, uint32_t material);
 
-/// Adds the passes that make it, in the format of the knob "storage".
+/// Adds the passes that make it, in half floats.
 reduced_map passes_colour_normals(const filter_context *context, uint32_t material);
 
 #endif

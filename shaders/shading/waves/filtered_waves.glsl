@@ -7,7 +7,7 @@
 // Microfacets become Gaussian slopes.
 #define SLOPE_FILTER
 
-#include "shading/filtered_material.glsl"
+#include "shading/colours/filtered_material.glsl"
 #include "shading/waves/waves.glsl"
 #include "lib/microfacet/slope_distribution.glsl"
 

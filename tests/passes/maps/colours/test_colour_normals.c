@@ -24,9 +24,9 @@ static field_texel texel_at(const lobe_image *normals, uint32_t i, double follow
     }
     for (int j = 0; j < 3; j++)
         texel.normal[j] /= sqrt(length);
-    texel.colour[0] = 0.4 + follow * 0.5 * texel.normal[0];
+    texel.colour[0] = 0.5 + follow * 0.7 * texel.normal[0];
     texel.colour[1] = 0.3;
-    texel.colour[2] = 0.4 - follow * 0.5 * texel.normal[0];
+    texel.colour[2] = 0.5 - follow * 0.7 * texel.normal[0];
     return texel;
 }
 
@@ -72,7 +72,7 @@ static lobe_scene *field(const lobe_image *normals, double follow) {
 /// World: y is up, x along u.
 static void check_suns(fixture *f, const char *filter, double follow) {
     static const double angles[] = {-60, -30, 0, 45};
-    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
     lobe_scene *scene = field(&normals, follow);
     scene_add_sun(scene, (double[]){0, 1, 0}, 1);
     scene_end(scene);
@@ -110,7 +110,7 @@ static void shine(const double direction[3], float radiance[3]) {
 }
 
 static void skies_show_their_side(void **state) {
-    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
     lobe_scene *scene = field(&normals, 1);
     const picture_request request = {
         .filter = "toksvig", .settings = {"env_size=16"}, .width = 1, .height = 1};
@@ -146,7 +146,7 @@ static size_t passes_named(fixture *f, const lobe_image *normals, double follow)
 }
 
 static void colours_that_do_not_follow_need_no_map(void **state) {
-    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.4, 141);
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
     assert_int_equal(passes_named(*state, &normals, 1), 1);
     assert_int_equal(passes_named(*state, &normals, 0.01), 0);
     lobe_image_free(&normals);

@@ -1,9 +1,9 @@
-#include "passes/upload/colour_correlation.h"
+#include "passes/upload/colours/colour_correlation.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "passes/upload/material_colours.h"
+#include "passes/upload/colours/material_colours.h"
 #include "passes/upload/material_maps.h"
 
 enum { PATCHES = 8, SAMPLES = 16, NUMBERS = 5 };

@@ -78,8 +78,8 @@ vec3 irradiance_growth(surface_point surface, float size, vec3 axis, vec3 across
            (2.0 * STEP);
 }
 
-// `reflected`: radiance of the environment by the means. Along the mean it is the length that grows:
-// normals spread less.
+// `reflected`: radiance of the environment by the means. Along the mean it is the length that
+// grows: normals spread less.
 vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
     const float STEP = 0.25;
     if (!COLOURS_TURN)

@@ -1,4 +1,4 @@
-#include "passes/upload/material_colours.h"
+#include "passes/upload/colours/material_colours.h"
 
 #include <lobe/colour.h>
 
