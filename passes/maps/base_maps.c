@@ -1,6 +1,10 @@
 #include "passes/maps/base_maps.h"
 
+#include <stdio.h>
+
+#include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/specialisation.h"
 
@@ -43,4 +47,29 @@ void passes_base_maps_specialise(const device_material *material, specialisation
     passes_specialise(list, SPECIALISE_INTERPOLATED,
                       passes_device_map_is_interpolated(material, MAP_NORMAL) ||
                           passes_device_map_is_interpolated(material, MAP_WIDTH));
+}
+
+reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
+                            const lobe_map_kind *kind, lobe_format format) {
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
+    char name[64];
+    snprintf(name, sizeof name, "%s of material %u", kind->content, index);
+    reduced_map map = passes_seen_map_declare(context, index, name, format, kind->layers, true);
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
+    passes_base_maps_read(context, material, false, pass);
+    passes_reduced_map_write(&map, pass, kind->binding, 0);
+    specialisation_list list = {.graph = context->graph};
+    passes_base_maps_specialise(material, &list);
+    if (kind->read_more)
+        kind->read_more(context, material, pass, &list);
+    const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+    lobe_dispatch dispatch = {.shader = context->marks ? kind->seen_shader : kind->shader,
+                              .constants = &extent,
+                              .constants_size = sizeof extent,
+                              .specialisation = list.items,
+                              .specialisation_count = list.count};
+    passes_reduced_map_dispatch(&map, pass, 0, 1, &dispatch);
+    passes_level_reduction(context->graph, &map);
+    return map;
 }

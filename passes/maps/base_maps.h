@@ -3,6 +3,7 @@
 
 #include "passes/context/filter.h"
 #include "passes/context/material_specialisation.h"
+#include "passes/maps/level_reduction.h"
 
 /// A material's own maps, for passes that build filtered maps from them.
 
@@ -20,5 +21,23 @@ void passes_base_maps_specialise(const device_material *material, specialisation
 /// on no map of colours.
 void passes_colour_maps_read(const filter_context *context, const device_material *material,
                              bool reads, lobe_pass *pass);
+
+/// A map whose level 0 one compute pass makes from the base maps. Its push constants are the grid's
+/// width and height.
+typedef struct lobe_map_kind {
+    const char *content;     ///< what it holds; part of its name
+    const char *pass;        ///< name of the pass
+    const char *shader;      ///< of the pass
+    const char *seen_shader; ///< its variant SEEN_TILES, see passes/maps/seen_tiles.h
+    const char *binding;     ///< of the map, in that shader and in shading
+    uint32_t layers;         ///< of the map
+    /// Binds and specialises what the shader reads beside the base maps. NULL: nothing.
+    void (*read_more)(const filter_context *context, const device_material *material,
+                      lobe_pass *pass, specialisation_list *list);
+} lobe_map_kind;
+
+/// Adds the pass that makes the map, and the reduction. The material has a normal or a width map.
+reduced_map passes_lobe_map(const filter_context *context, uint32_t material,
+                            const lobe_map_kind *kind, lobe_format format);
 
 #endif

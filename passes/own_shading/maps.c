@@ -23,7 +23,7 @@ struct lobe_maps {
     device_scene *uploaded; ///< NULL: an update failed half-way
     filter_slots *slots;
     environment_state environment;
-    lobe_resource *filtered;        ///< one per image of the scene, then two per material
+    lobe_resource *filtered;        ///< one per image of the scene, then three per material
     specialisation_list *constants; ///< one per material
     bool *closed, *waves;           ///< the same
     bool changed;                   ///< since the last recording

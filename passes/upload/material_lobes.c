@@ -70,6 +70,7 @@ static void decode_normal(lobe_normal_encoding encoding, const double value[4], 
         normal[2] = sqrt(fmax(0, 1 - normal[0] * normal[0] - normal[1] * normal[1]));
 }
 
+/// Unit.
 static bool sample_normal(const device_material *material, double u, double v, double normal[3]) {
     double value[4] = {0.5, 0.5, 1, 1};
     const device_map *map = &material->maps[MAP_NORMAL];
@@ -125,6 +126,12 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
         lobes[i].weight = microfacet ? 1 : passes_material_lobe_share(material, i);
     }
     return count;
+}
+
+bool passes_material_normal_read(const device_material *material, double x, double y,
+                                 double normal[3]) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    return sample_normal(material, x / grid.width, y / grid.height, normal);
 }
 
 uint32_t passes_material_lobes_read(const device_material *material, double x, double y,

@@ -43,7 +43,7 @@ static reduced_map make_map(const filter_context *context, uint32_t index, uint3
         .layers = 1,
         .read_more = variation == BASE_LOBES_COLOURED ? read_colours : read_no_colours,
     };
-    return passes_lobe_map(context, index, &kind);
+    return passes_lobe_map(context, index, &kind, passes_filtered_map_format(context));
 }
 
 void passes_base_lobes_build(const filter_context *context, uint32_t index,

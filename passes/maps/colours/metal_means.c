@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "passes/context/material_specialisation.h"
+#include "passes/maps/base_maps.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
@@ -58,23 +59,15 @@ static reduced_map declare(const filter_context *context, uint32_t index, uint32
                                          true);
 }
 
-static void read_map(const filter_context *context, const device_material *material, uint32_t map,
-                     const char *name, lobe_pass *pass) {
-    lobe_pass_read(pass, &(lobe_binding){.name = name,
-                                         .resource = passes_device_map_import(
-                                             context->graph, context->scene, material, map),
-                                         .sampler = passes_device_map_sampler(material, map)});
-}
-
 reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
     const bool coloured = passes_metal_means_of(material) != METAL_MEANS_ALONE;
     reduced_map map =
         declare(context, index, coloured ? METAL_LAYER_COLOUR + 1 : METAL_LAYER_METAL + 1);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "metal_means");
-    read_map(context, material, MAP_WIDTH, "width_map", pass);
+    passes_base_map_read(context, material, MAP_WIDTH, "width_map", pass);
     if (coloured)
-        read_map(context, material, MAP_BASE_COLOUR, "base_colour_map", pass);
+        passes_base_map_read(context, material, MAP_BASE_COLOUR, "base_colour_map", pass);
     else
         lobe_pass_read(pass, &(lobe_binding){.name = "base_colour_map",
                                              .resource = lobe_graph_import_texture(

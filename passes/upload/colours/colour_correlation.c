@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "passes/upload/colours/material_colours.h"
+#include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 
 enum { PATCHES = 8, SAMPLES = 16, NUMBERS = 5 };
@@ -30,33 +31,15 @@ static uint32_t place_of(uint32_t stratum, uint32_t strata, uint32_t extent, uin
     return place < extent ? place : extent - 1;
 }
 
-static void normal_at(const device_material *material, uint32_t x, uint32_t y, double normal[2]) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    const device_map *map = &material->maps[MAP_NORMAL];
-    const bool is_signed = passes_normals_are_signed(map->normals);
-    float texel[4];
-    passes_image_texel(map->texels, (uint32_t)((uint64_t)x * map->width / grid.width),
-                       (uint32_t)((uint64_t)y * map->height / grid.height), texel);
-    double length = 0, value[3];
-    for (int i = 0; i < 3; i++) {
-        value[i] = is_signed ? (double)texel[i] : 2 * (double)texel[i] - 1;
-        value[i] *= i < 2 ? (double)material->material->normal_scale : 1;
-    }
-    if (passes_normals_lack_z(map->normals))
-        value[2] = sqrt(fmax(1 - value[0] * value[0] - value[1] * value[1], 0));
-    for (int i = 0; i < 3; i++)
-        length += value[i] * value[i];
-    for (int i = 0; i < 2; i++)
-        normal[i] = length > 1e-12 ? value[i] / sqrt(length) : 0;
-}
-
 static void add_texel(const lobe_scene *scene, const device_material *material, uint32_t x,
                       uint32_t y, patch_sums *patch) {
     material_colours colours;
-    double numbers[NUMBERS] = {0};
-    if (!passes_material_colours_read(scene, material, x, y, &colours))
+    double normal[3], numbers[NUMBERS];
+    if (!passes_material_colours_read(scene, material, x, y, &colours) ||
+        !passes_material_normal_read(material, x + 0.5, y + 0.5, normal))
         return;
-    normal_at(material, x, y, numbers);
+    for (int i = 0; i < 2; i++)
+        numbers[i] = normal[i];
     for (int k = 0; k < 3; k++)
         numbers[2 + k] = colours.albedo[k] * (1 - colours.metallic);
     for (int i = 0; i < NUMBERS; i++)

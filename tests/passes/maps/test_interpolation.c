@@ -59,7 +59,7 @@ static map_ends make_map(fixture *f, lobe_scene *scene, const char *name,
                          const lobe_map_kind *kind) {
     pass_run run;
     pass_run_begin(&run, f, scene, name, (const char *[]){"storage=float32", NULL});
-    const reduced_map map = passes_lobe_map(&run.context, 0, kind);
+    const reduced_map map = passes_lobe_map(&run.context, 0, kind, LOBE_FORMAT_RGBA32_FLOAT);
     float *texels = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
     map_ends ends = {
         .width = map.width, .height = map.height, .layers = map.layers, .first = texels};

@@ -35,7 +35,8 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
     scene_end_with_square(scene, material);
     pass_run run;
     pass_run_begin(&run, f, scene, "mipmap", (const char *[]){"storage=float32", NULL});
-    const reduced_map map = passes_lobe_map(&run.context, 0, &passes_averaged_parameters);
+    const reduced_map map =
+        passes_lobe_map(&run.context, 0, &passes_averaged_parameters, LOBE_FORMAT_RGBA32_FLOAT);
     float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
     reference_layers texels = averaged_parameters_of_texels(scene, material);
     check_map(found, &map, &texels);

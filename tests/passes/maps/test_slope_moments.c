@@ -21,8 +21,9 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     scene_end_with_square(scene, material);
     pass_run run;
     pass_run_begin(&run, f, scene, "lean", (const char *[]){storage, NULL});
-    const reduced_map map = passes_lobe_map(&run.context, 0, &passes_slope_moments);
-    float *found = pass_run_read(&run, &map, passes_filtered_map_format(&run.context));
+    const lobe_format format = passes_filtered_map_format(&run.context);
+    const reduced_map map = passes_lobe_map(&run.context, 0, &passes_slope_moments, format);
+    float *found = pass_run_read(&run, &map, format);
     reference_layers texels = slope_moments_of_texels(scene, material);
     check(found, &map, &texels, tolerance);
     free(found);
