@@ -94,6 +94,18 @@ void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, cons
 // ---------------------------------------------------------------------------------------------
 // Appearances
 
+size_t passes_filtered_images_count(const lobe_scene *scene) {
+    return scene->image_count + 3 * scene->material_count;
+}
+
+filtered_images passes_filtered_images_of(lobe_resource *resources, const lobe_scene *scene) {
+    lobe_resource *of_materials = resources + scene->image_count;
+    return (filtered_images){.resources = resources,
+                             .masked = of_materials,
+                             .metal = of_materials + scene->material_count,
+                             .normals = of_materials + 2 * scene->material_count};
+}
+
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler) {
     if (appearance->binding_count == FILTER_MAXIMUM_BINDINGS) {

@@ -31,6 +31,11 @@ typedef struct filtered_images {
     uint64_t bytes;
 } filtered_images;
 
+/// How many resources the arrays of filtered_images have in all.
+size_t passes_filtered_images_count(const lobe_scene *scene);
+/// Divides `resources`, so many, among these arrays.
+filtered_images passes_filtered_images_of(lobe_resource *resources, const lobe_scene *scene);
+
 typedef struct filter_view {
     const lobe_camera *camera;
     uint32_t width, height; ///< of the picture, pixels

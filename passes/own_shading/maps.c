@@ -23,7 +23,7 @@ struct lobe_maps {
     device_scene *uploaded; ///< NULL: an update failed half-way
     filter_slots *slots;
     environment_state environment;
-    lobe_resource *filtered;        ///< one per image of the scene, then three per material
+    lobe_resource *filtered;        ///< passes_filtered_images_count of them
     specialisation_list *constants; ///< one per material
     bool *closed, *waves;           ///< the same
     bool changed;                   ///< since the last recording
@@ -54,7 +54,7 @@ static bool allocate_tables(lobe_maps *maps) {
     maps->materials =
         passes_material_scene_create(scene, maps->parameters.vertex_colours, allocator);
     maps->filtered =
-        lobe_allocate(allocator, scene->image_count + 3 * materials + 1, sizeof *maps->filtered);
+        lobe_allocate(allocator, passes_filtered_images_count(scene) + 1, sizeof *maps->filtered);
     maps->constants = lobe_allocate(allocator, materials + 1, sizeof *maps->constants);
     maps->closed = lobe_allocate(allocator, materials + 1, sizeof *maps->closed);
     maps->waves = lobe_allocate(allocator, materials + 1, sizeof *maps->waves);
@@ -64,11 +64,7 @@ static bool allocate_tables(lobe_maps *maps) {
 /// Points into the object and to `images`.
 static filter_context context_of(lobe_maps *maps, filtered_images *images) {
     const lobe_scene *scene = &maps->materials->scene;
-    lobe_resource *of_materials = maps->filtered + scene->image_count;
-    *images = (filtered_images){.resources = maps->filtered,
-                                .masked = of_materials,
-                                .metal = of_materials + scene->material_count,
-                                .normals = of_materials + 2 * scene->material_count};
+    *images = passes_filtered_images_of(maps->filtered, scene);
     return (filter_context){
         .graph = maps->graph,
         .scene = maps->uploaded,
@@ -215,8 +211,7 @@ static void declare(lobe_maps *maps) {
     filtered_images images;
     const filter_context context = context_of(maps, &images);
     const environment_work work = {.state = &maps->environment};
-    memset(maps->filtered, 0,
-           (scene->image_count + 3 * scene->material_count) * sizeof *maps->filtered);
+    memset(maps->filtered, 0, passes_filtered_images_count(scene) * sizeof *maps->filtered);
     passes_given_maps_take(&context, maps->parameters.give_content, maps->parameters.user);
     const environment_light light = passes_environment_light_build(&context, &work);
     lobe_pass *pass = lobe_graph_add_pass(maps->graph, LOBE_PASS_EXPORT, "maps");

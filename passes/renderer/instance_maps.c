@@ -60,7 +60,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
                         is_cpu(r->renderer->device));
     passes_tile_marking(r);
     memset(r->images.resources, 0,
-           (scene->image_count + 3 * scene->material_count) * sizeof *r->images.resources);
+           passes_filtered_images_count(scene) * sizeof *r->images.resources);
     r->images.bytes = 0;
     frame->filtered_bytes = frame->base_texels = 0;
     r->fits.parts_left = 0;

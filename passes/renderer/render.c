@@ -75,10 +75,7 @@ static fit_work fits_of(const rendering *r) {
 static void fill_context(rendering *r, const lobe_filter *filter) {
     lobe_renderer *renderer = r->renderer;
     const lobe_render_parameters *parameters = r->parameters;
-    r->images.resources = renderer->filtered_images;
-    r->images.masked = renderer->filtered_images + renderer->scene->scene->image_count;
-    r->images.metal = r->images.masked + renderer->scene->scene->material_count;
-    r->images.normals = r->images.metal + renderer->scene->scene->material_count;
+    r->images = passes_filtered_images_of(renderer->filtered_images, renderer->scene->scene);
     r->context = (filter_context){
         .graph = renderer->graph,
         .scene = renderer->scene,

@@ -79,7 +79,7 @@ lobe_result lobe_renderer_set_scene(lobe_renderer *renderer, const lobe_scene *s
     if (result != LOBE_OK)
         return result;
     renderer->filtered_images =
-        lobe_allocate(renderer->host.allocator, scene->image_count + 3 * scene->material_count + 1,
+        lobe_allocate(renderer->host.allocator, passes_filtered_images_count(scene) + 1,
                       sizeof *renderer->filtered_images);
     renderer->first_marks =
         lobe_allocate(renderer->host.allocator, scene->material_count + scene->image_count + 1,

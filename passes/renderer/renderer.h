@@ -22,7 +22,7 @@ struct lobe_renderer {
     draw_list draws;
     uint32_t *first_marks;  ///< one per material, then one per image: see passes/maps/seen_tiles.h
     uint32_t marked_frames; ///< in which tiles were marked
-    lobe_resource *filtered_images;     ///< one per image of the scene, then three per material
+    lobe_resource *filtered_images;     ///< passes_filtered_images_count of them
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene
     uint32_t reported_shadows;          ///< the knob `shadows` when lights were last counted for it
