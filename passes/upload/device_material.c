@@ -1,4 +1,3 @@
-#include "passes/upload/colours/colour_correlation.h"
 #include "passes/upload/device_scene_parts.h"
 
 #include <math.h>
@@ -319,6 +318,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .height_normal_texels = before.height_normal_texels,
         .height = source->height_map,
         .height_scale = source->height_scale,
+        .colours = before.colours,
         .version = before.version,
         .parameter_version = before.parameter_version,
         .factor_version = before.factor_version,
@@ -329,7 +329,6 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);
-        passes_colour_correlation_find(scene, &before, material);
         status = store_constants(scene->graph, material);
     }
     if (status == LOBE_OK) {

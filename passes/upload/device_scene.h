@@ -29,7 +29,9 @@ typedef struct image_metal {
 
 /// Whether diffuse colours go with normals (passes/upload/colours/colour_correlation.h).
 typedef struct colour_correlation {
+    bool known; ///< false: no filter has asked
     bool follow_normals;
+    bool lie_alike;             ///< the maps did when it was found, without a mask
     int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none
     uint32_t texel_versions[3]; ///< of these
 } colour_correlation;

@@ -1,11 +1,12 @@
 #include "passes/maps/colours/colour_normals.h"
 
 #include "passes/maps/base_maps.h"
+#include "passes/upload/colours/colour_correlation.h"
 #include "shaders/interface/material.h"
 
 bool passes_has_colour_normals(const filter_context *context, uint32_t index) {
-    return context->scene->materials[index].colours.follow_normals &&
-           !context->filter->reads_heights;
+    return !context->filter->reads_heights &&
+           passes_colours_follow_normals(context->scene, &context->scene->materials[index]);
 }
 
 static void read_colours(const filter_context *context, const device_material *material,

@@ -104,33 +104,36 @@ static bool are_readable(const lobe_scene *scene, const device_material *materia
            passes_material_colours_read(scene, material, 0, 0, &colours);
 }
 
+/// What the answer depends on.
 static colour_correlation inputs_of(const device_material *material) {
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_NORMAL, MAP_WIDTH};
-    colour_correlation found = {.images = {-1, -1, -1}};
+    colour_correlation inputs = {.known = true,
+                                 .lie_alike = has_texels(&material->maps[MAP_BASE_COLOUR]) &&
+                                              has_texels(&material->maps[MAP_NORMAL]) &&
+                                              !material->material->alpha_mask &&
+                                              passes_lies_under_lobes(material, MAP_BASE_COLOUR),
+                                 .images = {-1, -1, -1}};
     for (int i = 0; i < 3; i++) {
         if (material->maps[maps[i]].use)
-            found.images[i] = material->maps[maps[i]].use->image;
-        found.texel_versions[i] = material->texel_versions[maps[i]];
+            inputs.images[i] = material->maps[maps[i]].use->image;
+        inputs.texel_versions[i] = material->texel_versions[maps[i]];
     }
-    return found;
+    return inputs;
 }
 
 static bool have_equal_inputs(const colour_correlation *a, const colour_correlation *b) {
-    return memcmp(a->images, b->images, sizeof a->images) == 0 &&
+    return a->known == b->known && a->lie_alike == b->lie_alike &&
+           memcmp(a->images, b->images, sizeof a->images) == 0 &&
            memcmp(a->texel_versions, b->texel_versions, sizeof a->texel_versions) == 0;
 }
 
-void passes_colour_correlation_find(const device_scene *scene, const device_material *before,
-                                    device_material *material) {
+bool passes_colours_follow_normals(const device_scene *scene, device_material *material) {
+    const colour_correlation *before = &material->colours;
     colour_correlation found = inputs_of(material);
-    const device_map *colours = &material->maps[MAP_BASE_COLOUR],
-                     *normals = &material->maps[MAP_NORMAL];
-    if (before->version > 0 &&
-        (scene->keeps_conclusions || have_equal_inputs(&found, &before->colours)))
-        found.follow_normals = before->colours.follow_normals;
-    else if (has_texels(colours) && has_texels(normals) && !material->material->alpha_mask &&
-             passes_lies_under_lobes(material, MAP_BASE_COLOUR))
-        found.follow_normals =
-            !are_readable(scene->scene, material) || follow_normals(scene->scene, material);
+    if ((before->known && scene->keeps_conclusions) || have_equal_inputs(&found, before))
+        return before->follow_normals;
+    found.follow_normals = found.lie_alike && (!are_readable(scene->scene, material) ||
+                                               follow_normals(scene->scene, material));
     material->colours = found;
+    return found.follow_normals;
 }
