@@ -34,6 +34,7 @@ typedef struct colour_correlation {
     bool lie_alike;             ///< the maps did when it was found, without a mask
     int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none
     uint32_t texel_versions[3]; ///< of these
+    float normal_scale, height_scale, metallic;
 } colour_correlation;
 
 typedef struct device_material {

@@ -112,7 +112,10 @@ static colour_correlation inputs_of(const device_material *material) {
                                               has_texels(&material->maps[MAP_NORMAL]) &&
                                               !material->material->alpha_mask &&
                                               passes_lies_under_lobes(material, MAP_BASE_COLOUR),
-                                 .images = {-1, -1, -1}};
+                                 .images = {-1, -1, -1},
+                                 .normal_scale = material->material->normal_scale,
+                                 .height_scale = material->height_scale,
+                                 .metallic = material->metallic};
     for (int i = 0; i < 3; i++) {
         if (material->maps[maps[i]].use)
             inputs.images[i] = material->maps[maps[i]].use->image;
@@ -122,15 +125,17 @@ static colour_correlation inputs_of(const device_material *material) {
 }
 
 static bool have_equal_inputs(const colour_correlation *a, const colour_correlation *b) {
-    return a->known == b->known && a->lie_alike == b->lie_alike &&
-           memcmp(a->images, b->images, sizeof a->images) == 0 &&
-           memcmp(a->texel_versions, b->texel_versions, sizeof a->texel_versions) == 0;
+    return memcmp(a->images, b->images, sizeof a->images) == 0 &&
+           memcmp(a->texel_versions, b->texel_versions, sizeof a->texel_versions) == 0 &&
+           a->normal_scale == b->normal_scale && a->height_scale == b->height_scale &&
+           a->metallic == b->metallic;
 }
 
 bool passes_colours_follow_normals(const device_scene *scene, device_material *material) {
     const colour_correlation *before = &material->colours;
     colour_correlation found = inputs_of(material);
-    if ((before->known && scene->keeps_conclusions) || have_equal_inputs(&found, before))
+    if (before->known && found.lie_alike == before->lie_alike &&
+        (scene->keeps_conclusions || have_equal_inputs(&found, before)))
         return before->follow_normals;
     found.follow_normals = found.lie_alike && (!are_readable(scene->scene, material) ||
                                                follow_normals(scene->scene, material));

@@ -11,8 +11,9 @@
 
 #ifdef FILTERED_MAPS_GLSL
 
-#include "lib/microfacet/microfacet.glsl"
+#include "lib/lobe/direction_lobe.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
+#include "lib/microfacet/microfacet.glsl"
 
 #ifdef ENVIRONMENT
 #include "environment/irradiance.glsl"
@@ -27,6 +28,7 @@ const bool COLOURS_TURN = COLOUR_NORMALS && DIFFUSE && !CLOSED;
 
 struct colour_normals {
     mat3 covariance; // columns: of each channel with the normal
+    vec3 colour;     // mean diffuse colour
     vec3 mean;       // normal
     float deviation; // of normals, in any direction across the mean
 };
@@ -40,33 +42,34 @@ void fetch_colour_normals(surface_point surface) {
     if (MODEL == MODEL_MICROFACET && !METALLIC_MAP)
         factor *= 1.0 - material.metallic;
     // A texel of level 0 has one colour and one normal.
-    if (may_see_level_0(lobe_map()))
-        factor *= clamp(area.level, 0.0, 1.0);
+    float share = may_see_level_0(lobe_map()) ? clamp(area.level, 0.0, 1.0) : 1.0;
     vec3 mean = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN).xyz;
     for (uint k = 0u; k < 3u; ++k) {
         vec4 own = filtered_layer(colour_normal_map, area, k);
-        drawn_colours.covariance[k] = factor[k] * (own.xyz - own.w * mean);
+        drawn_colours.covariance[k] = share * factor[k] * (own.xyz - own.w * mean);
+        drawn_colours.colour[k] = factor[k] * own.w;
     }
     drawn_colours.mean = mean;
     drawn_colours.deviation = sqrt(max(0.5 - 0.5 * dot(mean, mean), 1e-4));
 }
 
-// Phi, as a logistic function.
-float part_facing(vec3 incoming) {
-    return 1.0 / (1.0 + exp(-1.702 * dot(drawn_colours.mean, incoming) / drawn_colours.deviation));
-}
-
-// `reflected`: reflectance times cosine of the means.
+// `reflected`: reflectance times cosine of the means. Where the filter has less than the mean of
+// max(<n, l>, 0), as under low light those have that take the cosine of the mean normal, it is not
+// darkened below what it should have.
 vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
     if (!COLOURS_TURN || incoming.z <= 0.0)
         return reflected;
-    vec3 let_through = vec3(1.0);
+    vec3 let_through = vec3(INVERSE_PI);
     if (MODEL == MODEL_MICROFACET)
-        let_through -= fresnel_schlick(vec3(0.04), vec3(1.0),
-                                       dot(incoming, half_vector(incoming, surface.outgoing)));
-    return max(reflected + (INVERSE_PI * part_facing(incoming)) * let_through *
-                               (incoming * drawn_colours.covariance),
-               0.0);
+        let_through *=
+            1.0 - fresnel_schlick(vec3(0.04), vec3(1.0),
+                                  dot(incoming, half_vector(incoming, surface.outgoing)));
+    float cosine = dot(drawn_colours.mean, incoming), deviation = drawn_colours.deviation;
+    vec3 growth =
+        normal_below(cosine / deviation) * let_through * (incoming * drawn_colours.covariance);
+    vec3 means = mean_above_zero(cosine, deviation) * let_through * drawn_colours.colour;
+    vec3 loss = min(growth + max(means - reflected, 0.0), 0.0);
+    return max(reflected + max(growth, loss), 0.0);
 }
 
 #ifdef ENVIRONMENT
@@ -90,11 +93,10 @@ vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
     vec3 along = (mean_irradiance(surface, size * axis) -
                   mean_irradiance(surface, max(size - STEP, 0.0) * axis)) /
                  STEP;
-    reflected += along * (axis * drawn_colours.covariance) +
-                 irradiance_growth(surface, size, axis, first) *
-                     (first * drawn_colours.covariance) +
-                 irradiance_growth(surface, size, axis, second) *
-                     (second * drawn_colours.covariance);
+    reflected +=
+        along * (axis * drawn_colours.covariance) +
+        irradiance_growth(surface, size, axis, first) * (first * drawn_colours.covariance) +
+        irradiance_growth(surface, size, axis, second) * (second * drawn_colours.covariance);
     return max(reflected, 0.0);
 }
 #endif

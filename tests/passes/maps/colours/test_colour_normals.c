@@ -69,6 +69,23 @@ static lobe_scene *field(const lobe_image *normals, double follow) {
     return scene;
 }
 
+static void mean_of_field(const lobe_image *normals, double follow, double angle,
+                          double radiance[3]) {
+    for (int j = 0; j < 3; j++)
+        radiance[j] = 0;
+    for (uint32_t k = 0; k < EXTENT * EXTENT; k++) {
+        const field_texel texel = texel_at(normals, k, follow);
+        const double cosine = texel.normal[0] * sin(angle) + texel.normal[2] * cos(angle);
+        for (int j = 0; j < 3; j++)
+            radiance[j] += texel.colour[j] * fmax(cosine, 0) / (M_PI * EXTENT * EXTENT);
+    }
+}
+
+static void shine_from(lobe_scene *scene, double angle) {
+    scene->lights[0].direction[0] = (float)-sin(angle);
+    scene->lights[0].direction[1] = (float)-cos(angle);
+}
+
 /// World: y is up, x along u.
 static void check_suns(fixture *f, const char *filter, double follow) {
     static const double angles[] = {-60, -30, 0, 45};
@@ -79,15 +96,9 @@ static void check_suns(fixture *f, const char *filter, double follow) {
     for (int i = 0; i < 4; i++) {
         const double angle = angles[i] * M_PI / 180;
         const picture_request request = {.filter = filter, .width = 1, .height = 1};
-        double expected[3] = {0};
-        for (uint32_t k = 0; k < EXTENT * EXTENT; k++) {
-            const field_texel texel = texel_at(&normals, k, follow);
-            const double cosine = texel.normal[0] * sin(angle) + texel.normal[2] * cos(angle);
-            for (int j = 0; j < 3; j++)
-                expected[j] += texel.colour[j] * fmax(cosine, 0) / (M_PI * EXTENT * EXTENT);
-        }
-        scene->lights[0].direction[0] = (float)-sin(angle);
-        scene->lights[0].direction[1] = (float)-cos(angle);
+        double expected[3];
+        mean_of_field(&normals, follow, angle, expected);
+        shine_from(scene, angle);
         lobe_frame frame = draw_scene(f, scene, &request);
         check_colour(&frame, expected, 0.02, filter, angles[i]);
         lobe_frame_free(&frame);
@@ -101,6 +112,28 @@ static void light_from_a_side_shows_its_colours(void **state) {
     check_suns(*state, "toksvig", 1);
     check_suns(*state, "moments", 1);
     check_suns(*state, "toksvig", -1);
+}
+
+/// Under a low sun `toksvig`, which takes the cosine of the mean normal, is half as bright as the
+/// mean. The colour that faces away does not become darker for that.
+static void low_light_takes_nothing_that_is_missing(void **state) {
+    const double angle = 83 * M_PI / 180;
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
+    const picture_request request = {.filter = "toksvig", .width = 1, .height = 1};
+    double blue[2], expected[3];
+    for (int i = 0; i < 2; i++) {
+        lobe_scene *scene = field(&normals, i);
+        scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+        scene_end(scene);
+        shine_from(scene, angle);
+        lobe_frame frame = draw_scene(*state, scene, &request);
+        blue[i] = (double)pixel_at(&frame.radiance, 0, 0)[2];
+        lobe_frame_free(&frame);
+        lobe_scene_destroy(&scene);
+    }
+    mean_of_field(&normals, 1, angle, expected);
+    assert_true(blue[1] > 0.97 * fmin(blue[0], expected[2]));
+    lobe_image_free(&normals);
 }
 
 /// Brighter towards x. A Lambert surface of normal n has the irradiance pi (1 + 2/3 n_x).
@@ -131,30 +164,52 @@ static void skies_show_their_side(void **state) {
     lobe_image_free(&normals);
 }
 
-static size_t passes_named(fixture *f, const lobe_image *normals, double follow) {
-    lobe_scene *scene = field(normals, follow);
+static bool makes_map(fixture *f, const lobe_scene *scene) {
+    static const uint32_t first = 0;
     const picture_request request = {.filter = "toksvig", .width = 1, .height = 1};
-    size_t count = 0;
-    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
-    scene_end(scene);
-    lobe_frame frame = draw_scene(f, scene, &request);
+    const lobe_scene_changes changes = {.materials = &first, .material_count = 1};
+    bool made = false;
+    if (scene)
+        hold_scene(f, scene);
+    else
+        assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+    lobe_frame frame = draw(f, &request);
     for (size_t i = 0; i < frame.pass_count; i++)
-        count += strcmp(frame.passes[i].name, "colour_normals") == 0;
+        made = made || strcmp(frame.passes[i].name, "colour_normals") == 0;
     lobe_frame_free(&frame);
-    lobe_scene_destroy(&scene);
-    return count;
+    return made;
 }
 
+static lobe_scene *lit_field(const lobe_image *normals, double follow) {
+    lobe_scene *scene = field(normals, follow);
+    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    scene_end(scene);
+    return scene;
+}
+
+/// Nor those that lie elsewhere, nor those of normals that have become flat.
 static void colours_that_do_not_follow_need_no_map(void **state) {
     lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
-    assert_int_equal(passes_named(*state, &normals, 1), 1);
-    assert_int_equal(passes_named(*state, &normals, 0.01), 0);
+    lobe_scene *following = lit_field(&normals, 1), *other = lit_field(&normals, 0.01);
+    lobe_material *material = &following->materials[0];
+    assert_false(makes_map(*state, other));
+    assert_true(makes_map(*state, following));
+    material->base_colour_map.transform[0][0] = 2;
+    assert_false(makes_map(*state, NULL));
+    material->base_colour_map.transform[0][0] = 1;
+    assert_true(makes_map(*state, NULL));
+    material->normal_scale = 0.01f;
+    assert_false(makes_map(*state, NULL));
+    hold_scene(*state, NULL);
+    lobe_scene_destroy(&following);
+    lobe_scene_destroy(&other);
     lobe_image_free(&normals);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_from_a_side_shows_its_colours),
+        cmocka_unit_test(low_light_takes_nothing_that_is_missing),
         cmocka_unit_test(skies_show_their_side),
         cmocka_unit_test(colours_that_do_not_follow_need_no_map),
     };
