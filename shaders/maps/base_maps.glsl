@@ -7,6 +7,7 @@
 // and normals made unit length after that. The passes run over the texels of the larger map and
 // read both maps at a few points inside each texel.
 
+#include "lib/map/base_texel.glsl"
 #include "lib/map/normal_map.glsl"
 #include "lib/map/texel_point.glsl"
 #include "maps/base_widths.glsl"
@@ -43,7 +44,7 @@ vec3 normal_at(vec2 point) {
 float width_at(vec2 point) {
     if (!has_map(MAP_WIDTH))
         return 1.0;
-    vec4 value = textureLod(width_map, point, 0.0);
+    vec4 value = base_texel(width_map, point);
     return MODEL == MODEL_MICROFACET ? value.g : value.r;
 }
 

@@ -35,10 +35,9 @@ void main() {
             float weight = row_weights[y] * column_weights[x] / float(POINTS);
             for (int i = 0; i < POINTS; ++i) {
                 vec2 point = map_point(2 * position + ivec2(x, y), i, size);
-                float metallic = METALLIC_MAP ? textureLod(width_map, point, 0.0).b : 0.0;
+                float metallic = METALLIC_MAP ? base_texel(width_map, point).b : 0.0;
                 vec3 normal = normal_at(point);
-                vec3 diffuse =
-                    (weight * (1.0 - metallic)) * textureLod(base_colour_map, point, 0.0).rgb;
+                vec3 diffuse = (weight * (1.0 - metallic)) * base_texel(base_colour_map, point).rgb;
                 products += outerProduct(vec4(normal, 1.0), diffuse);
                 mean += weight * normal;
             }

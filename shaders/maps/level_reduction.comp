@@ -3,9 +3,10 @@
 #pragma variants SEEN_TILES
 
 // One MIP level of an array of linear maps from the level above it, at any size; with SEEN_TILES,
-// of its listed tiles alone.
+// of its listed tiles alone. What is not finite in an image of the host's counts as 0.
 
 #include "lib/map/box_reduction.glsl"
+#include "lib/number/finite.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,9 +29,10 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int y = 0; y < box_taps(size.y); ++y) {
         vec4 row = vec4(0.0);
-        for (int x = 0; x < box_taps(size.x); ++x)
-            row += column_weights[x] *
-                   texelFetch(source, ivec3(2 * position.xy + ivec2(x, y), position.z), 0);
+        for (int x = 0; x < box_taps(size.x); ++x) {
+            ivec3 texel = ivec3(2 * position.xy + ivec2(x, y), position.z);
+            row += column_weights[x] * finite_or_zero(texelFetch(source, texel, 0));
+        }
         sum += row_weights[y] * row;
     }
     imageStore(target, position, sum);

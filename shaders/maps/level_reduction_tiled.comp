@@ -6,6 +6,7 @@
 // multiples of eight: every source texel is read once, every target texel written once. With
 // SEEN_TILES, what is made from the listed tiles of the first of them.
 
+#include "lib/number/finite.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -22,6 +23,11 @@ layout(set = 0, binding = 3) uniform writeonly image2DArray target_3;
 
 shared vec4 tile[8][8];
 
+// What is not finite in an image of the host's counts as 0.
+vec4 source_at(ivec3 position) {
+    return finite_or_zero(texelFetch(source, position, 0));
+}
+
 void main() {
     ivec2 local = ivec2(gl_LocalInvocationID.xy);
     ivec2 group;
@@ -36,10 +42,8 @@ void main() {
     vec4 mean = vec4(0.0);
     if (inside) {
         ivec3 corner = ivec3(2 * position, layer);
-        mean = 0.25 * ((texelFetch(source, corner, 0) +
-                        texelFetch(source, corner + ivec3(1, 0, 0), 0)) +
-                       (texelFetch(source, corner + ivec3(0, 1, 0), 0) +
-                        texelFetch(source, corner + ivec3(1, 1, 0), 0)));
+        mean = 0.25 * ((source_at(corner) + source_at(corner + ivec3(1, 0, 0))) +
+                       (source_at(corner + ivec3(0, 1, 0)) + source_at(corner + ivec3(1, 1, 0))));
         imageStore(target_1, ivec3(position, layer), mean);
     }
     tile[local.y][local.x] = mean;

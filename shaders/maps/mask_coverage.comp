@@ -10,6 +10,7 @@
 
 #include "interface/mask.h"
 #include "lib/map/box_reduction.glsl"
+#include "lib/number/finite.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -67,10 +68,9 @@ int wrapped(int texel, int size, bool repeats) {
 }
 
 vec4 texel_at(ivec2 texel) {
-    return texelFetch(base_colour_map,
-                      ivec2(wrapped(texel.x, int(constants.width), constants.repeats_u != 0u),
-                            wrapped(texel.y, int(constants.height), constants.repeats_v != 0u)),
-                      0);
+    ivec2 inside = ivec2(wrapped(texel.x, int(constants.width), constants.repeats_u != 0u),
+                         wrapped(texel.y, int(constants.height), constants.repeats_v != 0u));
+    return finite_or_zero(texelFetch(base_colour_map, inside, 0));
 }
 
 // The interpolated map at a texel's left and right edge (0, 2) and in the middle, on three rows.
@@ -86,7 +86,7 @@ void read_columns(ivec2 texel, out vec4 rows[3][3]) {
 // The mean over a texel of what is kept.
 vec4 kept_of_texel(ivec2 texel) {
     if (constants.interpolated == 0u) {
-        vec4 colour = texelFetch(base_colour_map, texel, 0);
+        vec4 colour = finite_or_zero(texelFetch(base_colour_map, texel, 0));
         return above_cutoff(colour) < 0.0 ? vec4(0.0) : vec4(colour.rgb, 1.0);
     }
     vec4 rows[3][3];

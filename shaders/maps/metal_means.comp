@@ -11,6 +11,7 @@
 #include "interface/lobe_grid.h"
 #include "interface/material.h"
 #include "interface/specialisation.h"
+#include "lib/map/base_texel.glsl"
 #include "lib/map/box_reduction.glsl"
 #include "lib/map/texel_point.glsl"
 #include "maps/target_texel.glsl"
@@ -32,8 +33,8 @@ struct point_sums {
 };
 
 void add_point(inout point_sums sums, vec2 point, float weight) {
-    float metallic = textureLod(width_map, point, 0.0).b;
-    vec3 colour = METAL_MEANS == METAL_MEANS_COLOURED ? textureLod(base_colour_map, point, 0.0).rgb
+    float metallic = base_texel(width_map, point).b;
+    vec3 colour = METAL_MEANS == METAL_MEANS_COLOURED ? base_texel(base_colour_map, point).rgb
                                                       : vec3(1.0);
     sums.metal += weight * metallic * vec4(colour, metallic);
     sums.colour += weight * vec4(colour, metallic);

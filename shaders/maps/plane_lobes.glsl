@@ -26,7 +26,7 @@ struct plane_lobe {
 };
 
 vec4 value_at(int map, sampler2D image, vec2 point) {
-    return has_map(map) ? textureLod(image, point, 0.0) : vec4(1.0);
+    return has_map(map) ? base_texel(image, point) : vec4(1.0);
 }
 
 // Specular: of microfacets the part of F0 that is metal's, and the fraction that is not metal; or

@@ -67,8 +67,8 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
     if (!has_map(map))
         return filterable(map, vec4(1.0), surface);
     if ((FILTERED_MAPS & (1u << map)) == 0u)
-        return filterable(
-            map, textureLod(base, map_coordinates(map, surface.coordinates, 1.0), 0.0), surface);
+        return filterable(map, base_texel(base, map_coordinates(map, surface.coordinates, 1.0)),
+                          surface);
     map_area area = lobes;
     if ((LIKE_LOBES & (1u << map)) == 0u)
         area = area_of(map, vec2(textureSize(base, 0)), surface);
@@ -76,8 +76,8 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
     for (uint i = 0u; i < probes_of(area); ++i) {
         vec4 value = fetch_probe(filtered, area, i);
         if (may_see_level_0(map))
-            value = mix(filterable(map, textureLod(base, probe_position(area, i), 0.0), surface),
-                        value, min(area.level, 1.0));
+            value = mix(filterable(map, base_texel(base, probe_position(area, i)), surface), value,
+                        min(area.level, 1.0));
         sum += value;
     }
     return sum / float(probes_of(area));

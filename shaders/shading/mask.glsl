@@ -26,7 +26,7 @@ float mask_coverage(surface_point surface, float along) {
     vec2 offset = pixel.direction * ((pixel.major_axis - width) * (along - 0.5));
     vec2 position = map_coordinates(MAP_BASE_COLOUR, surface.coordinates, 1.0) + offset / size;
     float level = log2(max(width, 1e-6)) + knobs.level_bias;
-    vec4 finest = textureLod(base_colour_map, position, 0.0);
+    vec4 finest = base_texel(base_colour_map, position);
     float coverage = filterable(MAP_BASE_COLOUR, finest, surface).a;
     return mix(coverage, textureLod(base_colour_filtered, position, max(level - 1.0, 0.0)).a,
                clamp(level, 0.0, 1.0));

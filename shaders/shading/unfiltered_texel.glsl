@@ -3,10 +3,11 @@
 
 // A map's value at a point, as it is, and whether a mask keeps it.
 
+#include "lib/map/base_texel.glsl"
 #include "shading/surface.glsl"
 
 vec4 unfiltered_texel(int map, sampler2D image, surface_point surface) {
-    return has_map(map) ? textureLod(image, map_coordinates(map, surface.coordinates, 1.0), 0.0)
+    return has_map(map) ? base_texel(image, map_coordinates(map, surface.coordinates, 1.0))
                         : vec4(1.0);
 }
 

@@ -6,6 +6,7 @@
 // do. One thread a facet.
 
 #include "interface/displacement/relief.h"
+#include "lib/map/base_texel.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -24,13 +25,13 @@ struct facet_colours {
 };
 
 facet_colours colours_at(vec2 point) {
-    vec3 albedo = clamp(
-        constants.base_colour.rgb * textureLod(base_colour_map, point, 0.0).rgb, 0.0, 1.0);
+    vec3 albedo =
+        clamp(constants.base_colour.rgb * base_texel(base_colour_map, point).rgb, 0.0, 1.0);
     if (MODEL != MODEL_MICROFACET)
         return facet_colours(albedo, albedo);
     float metallic = constants.metallic;
     if (METALLIC_MAP)
-        metallic *= textureLod(width_map, point, 0.0).b;
+        metallic *= base_texel(width_map, point).b;
     // glTF 2.0, appendix B.2.
     vec3 mirrored = mix(vec3(0.04), albedo, metallic), diffuse = albedo * (1.0 - metallic);
     return facet_colours(diffuse, mirrored + diffuse * (1.0 - mirrored));

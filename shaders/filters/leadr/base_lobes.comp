@@ -24,9 +24,9 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray base_lobe_map;
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void add_point(inout vec3 widths, vec2 point, float weight) {
-    float metallic = METALLIC_MAP ? textureLod(width_map, point, 0.0).b : 1.0;
+    float metallic = METALLIC_MAP ? base_texel(width_map, point).b : 1.0;
     vec3 colour = BASE_LOBES == BASE_LOBES_COLOURED && has_map(MAP_BASE_COLOUR)
-                      ? textureLod(base_colour_map, point, 0.0).rgb
+                      ? base_texel(base_colour_map, point).rgb
                       : vec3(1.0);
     // glTF 2.0, appendix B.2.
     float reflected = mix(0.04, dot(colour, vec3(0.2126, 0.7152, 0.0722)), metallic);

@@ -57,7 +57,7 @@ grid_texel read_texel(uvec2 position) {
         texel.normal =
             decode_normal(fetch_texel(normal_map, position).xyz, material.normal_scale, NORMALS);
     if (has_map(MAP_WIDTH)) {
-        vec4 value = fetch_texel(width_map, position);
+        vec4 value = finite_or_zero(fetch_texel(width_map, position));
         texel.factor = MODEL == MODEL_MICROFACET ? value.g : value.r;
     }
     return texel;
@@ -65,8 +65,8 @@ grid_texel read_texel(uvec2 position) {
 
 // The largest of its colours.
 float brightness_of_texel(uvec2 position) {
-    vec3 colour = max(fetch_texel(base_colour_map, position).rgb,
-                      fetch_texel(specular_map, position).rgb);
+    vec3 colour = max(finite_or_zero(fetch_texel(base_colour_map, position)).rgb,
+                      finite_or_zero(fetch_texel(specular_map, position)).rgb);
     return max(max(colour.r, colour.g), max(colour.b, 1.0));
 }
 

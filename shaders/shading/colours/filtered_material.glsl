@@ -23,9 +23,9 @@ bool metal_has_colours() {
 
 // The layers of the map, from samples of the base maps.
 void layers_of_level_0(vec2 position, out vec4 metal, out vec4 colour) {
-    float share = textureLod(width_map, position, 0.0).b;
-    colour = vec4(metal_has_colours() ? textureLod(base_colour_map, position, 0.0).rgb : vec3(1.0),
-                  share);
+    float share = base_texel(width_map, position).b;
+    colour =
+        vec4(metal_has_colours() ? base_texel(base_colour_map, position).rgb : vec3(1.0), share);
     metal = share * vec4(colour.rgb, share);
 }
 
