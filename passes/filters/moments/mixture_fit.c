@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "passes/context/sample_pattern.h"
+#include "passes/filters/moments/lobe_columns.h"
 
 // More iterations do not change a picture.
 enum { ROUNDS = 30 };
@@ -61,17 +62,18 @@ void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weigh
     sums->variance += weight * s->variance;
 }
 
-/// The Gaussian of the sums, of which it has `weight`; `points` as for a fit.
-static void component_from(const plane_sums *sums, double weight, double points,
+/// The Gaussian of the sums, of which it has `weight` and whose places are from its mean; `points`
+/// as for a fit.
+static void move_component(const share_sums *sums, double weight, double points,
                            mixture_component *c) {
-    double total = fmax(sums->weight, 1e-12);
+    const double total = fmax(sums->weight, 1e-12), variance = sums->variance / total;
+    const double step[2] = {sums->place[0] / total, sums->place[1] / total};
     c->weight = weight;
+    c->covariance[0] = fmax(sums->moments[0] / total - step[0] * step[0], 0) + variance;
+    c->covariance[1] = fmax(sums->moments[1] / total - step[1] * step[1], 0) + variance;
+    c->covariance[2] = sums->moments[2] / total - step[0] * step[1];
     for (int i = 0; i < 2; i++)
-        c->mean[i] = sums->place[i] / total;
-    double variance = sums->variance / total;
-    c->covariance[0] = fmax(sums->moments[0] / total - c->mean[0] * c->mean[0], 0) + variance;
-    c->covariance[1] = fmax(sums->moments[1] / total - c->mean[1] * c->mean[1], 0) + variance;
-    c->covariance[2] = sums->moments[2] / total - c->mean[0] * c->mean[1];
+        c->mean[i] += step[i];
     invert(c, points);
 }
 
@@ -144,10 +146,21 @@ static void find_middle(const plane_sample *samples, uint32_t count, double midd
         middle[i] = sums.place[i] / sums.weight;
 }
 
+static void add_sample(share_sums *sums, const plane_sample *s, const double middle[2]) {
+    const double x = s->place[0] - middle[0], y = s->place[1] - middle[1];
+    sums->weight += s->weight;
+    sums->place[0] += s->weight * x;
+    sums->place[1] += s->weight * y;
+    sums->moments[0] += s->weight * x * x;
+    sums->moments[1] += s->weight * y * y;
+    sums->moments[2] += s->weight * x * y;
+    sums->variance += s->weight * s->variance;
+}
+
 /// From equal steps of the key; false if that is about the same everywhere.
 static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t start,
                          plane_mixture *m) {
-    plane_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
+    share_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
     double least = INFINITY, most = -INFINITY, total = 0, middle[2];
     find_middle(samples, count, middle);
     for (uint32_t i = 0; i < count; i++) {
@@ -161,46 +174,52 @@ static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t s
     for (uint32_t i = 0; i < count; i++) {
         double part = (key_of(&samples[i], middle, start) - least) / (most - least);
         uint32_t k = (uint32_t)(0.999 * part * m->count);
-        passes_plane_sums_add(&sums[k], &samples[i], samples[i].weight);
+        add_sample(&sums[k], &samples[i], middle);
     }
-    for (uint32_t k = 0; k < m->count; k++)
-        component_from(&sums[k], fmax(sums[k].weight / total, 1e-9), m->points, &m->components[k]);
+    for (uint32_t k = 0; k < m->count; k++) {
+        m->components[k] = (mixture_component){.mean = {middle[0], middle[1]}};
+        move_component(&sums[k], fmax(sums[k].weight / total, 1e-9), m->points, &m->components[k]);
+    }
     return true;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Expectation and maximisation
 
-static void improve(const plane_sample *samples, uint32_t count, plane_mixture *m) {
-    plane_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
-    double total = 0;
-    m->likelihood = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        double members[MOMENT_MAXIMUM_BINS];
-        m->likelihood += samples[i].weight * passes_mixture_share(m, &samples[i], members);
-        total += samples[i].weight;
-        for (uint32_t k = 0; k < m->count; k++)
-            passes_plane_sums_add(&sums[k], &samples[i], samples[i].weight * members[k]);
+static void improve(const lobe_columns *lobes, plane_mixture *m) {
+    lobe_chance chances[MOMENT_MAXIMUM_BINS];
+    share_sums sums[MOMENT_MAXIMUM_BINS];
+    for (uint32_t k = 0; k < m->count; k++) {
+        const mixture_component *c = &m->components[k];
+        chances[k] = (lobe_chance){.mean = {(float)c->mean[0], (float)c->mean[1]},
+                                   .offset = (float)c->offset};
+        for (int i = 0; i < 3; i++)
+            chances[k].squares[i] = (float)(0.5 * m->points * c->inverse[i]);
     }
-    m->likelihood /= total;
+    m->likelihood = passes_lobe_columns_share(lobes, chances, m->count, sums);
     for (uint32_t k = 0; k < m->count; k++) {
         mixture_component *c = &m->components[k];
-        if (sums[k].weight >= 1e-9 * total)
-            component_from(&sums[k], sums[k].weight / total, m->points, c);
-        else
+        if (sums[k].weight >= 1e-9) {
+            c->mean[0] = (double)chances[k].mean[0];
+            c->mean[1] = (double)chances[k].mean[1];
+            move_component(&sums[k], sums[k].weight, m->points, c);
+        } else {
             c->weight = 1e-9;
+        }
     }
 }
 
 void passes_mixture_fit(const plane_sample *samples, uint32_t count, uint32_t bins, double points,
                         uint32_t start, plane_mixture *fitted) {
     const double spread = passes_plane_spread(samples, count);
+    lobe_columns lobes;
+    passes_lobe_columns_fill(samples, count, &lobes);
     *fitted = (plane_mixture){.count = bins, .points = points};
     if (start > 1 || !start_by_key(samples, count, start, fitted))
         start_far_apart(samples, count, spread, (uint64_t)start * MOMENT_MAXIMUM_BINS, fitted);
     double likelihood = -INFINITY;
     for (int round = 0; round < ROUNDS; round++) {
-        improve(samples, count, fitted);
+        improve(&lobes, fitted);
         if (!(fitted->likelihood > likelihood + 1e-4))
             break;
         likelihood = fitted->likelihood;
