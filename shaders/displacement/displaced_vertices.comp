@@ -114,56 +114,58 @@ ivec3 odd_direction(ivec3 weights) {
     return odd.x == 0 ? ivec3(0, 1, -1) : odd.y == 0 ? ivec3(1, 0, -1) : ivec3(1, -1, 0);
 }
 
-// The position of a vertex on its way.
+// What belongs to a vertex on its way.
 vec3 slid(vec3 start, vec3 own, float grown) {
     precise vec3 result = start + grown * (own - start);
     return grown < 1.0 ? result : own;
 }
 
+// Where a vertex is, and where all else comes from: weights of the corners of the mesh's triangle,
+// which add up to 1. They move as the position does.
+struct moving_vertex {
+    vec3 position, weights;
+};
+
+moving_vertex vertex_at(patch_grid grid, ivec3 weights, int segments) {
+    base_place place = place_in_patch(grid.parts, weights, segments);
+    return moving_vertex(displaced_place(place), vec3(place.weights) / float(place_weight()));
+}
+
+moving_vertex slid_vertex(moving_vertex start, moving_vertex own, float grown) {
+    return moving_vertex(slid(start.position, own.position, grown),
+                         slid(start.weights, own.weights, grown));
+}
+
 // Neighbours of a vertex inside may be on their way along an edge: one loop over the starts and the
-// places of both neighbours and of the vertex itself, so that the code for a place exists once.
-vec3 grid_position(patch_grid grid, ivec3 weights) {
+// places of the vertex itself and of both neighbours, so that the code for a place exists once.
+moving_vertex vertex_of_grid(patch_grid grid, ivec3 weights) {
     bool inside = edge_with(weights) < 0;
-    float grown = point_of_grid(grid, weights).grown;
-    vec3 start = vec3(0.0), position = vec3(0.0), neighbours = vec3(0.0);
-    for (int i = inside && grown < 1.0 ? 0 : 4; i < 6; ++i) {
+    moving_vertex start = moving_vertex(vec3(0.0), vec3(0.0)), own = start, neighbours = start;
+    float grown = 1.0;
+    for (int i = 0; i < (inside && grown < 1.0 ? 6 : 2); ++i) {
         ivec3 place = weights;
-        if (i < 4)
-            place += (i < 2 ? -1 : 1) * odd_direction(weights);
+        if (i >= 2)
+            place += (i < 4 ? -1 : 1) * odd_direction(weights);
         grid_point point = point_of_grid(grid, place);
+        grown = i == 0 ? point.grown : grown;
         bool slides = edge_with(place) >= 0 && point.grown < 1.0, is_start = i % 2 == 0;
         if (is_start && !slides)
             continue;
-        vec3 found = displaced_place(
-            place_in_patch(grid.parts, is_start ? point.start : point.weights, point.segments));
+        moving_vertex found =
+            vertex_at(grid, is_start ? point.start : point.weights, point.segments);
         if (is_start) {
             start = found;
-        } else {
-            position = slides ? slid(start, found, point.grown) : found;
-            neighbours += i < 4 ? position : vec3(0.0);
+            continue;
         }
+        found = slid_vertex(start, found, slides ? point.grown : 1.0);
+        if (i == 1)
+            own = found;
+        else
+            neighbours = moving_vertex(neighbours.position + found.position,
+                                       neighbours.weights + found.weights);
     }
-    return inside ? slid(0.5 * neighbours, position, grown) : position;
-}
-
-// Weights of the corners of the mesh's triangle, which add up to 1: where all but the position of a
-// vertex comes from. They move as the position does.
-vec3 edge_or_inner_weights(patch_grid grid, ivec3 weights) {
-    grid_point point = point_of_grid(grid, weights);
-    vec3 own = vec3(place_in_patch(grid.parts, point.weights, point.segments).weights);
-    vec3 start = vec3(place_in_patch(grid.parts, point.start, point.segments).weights);
-    bool slides = edge_with(weights) >= 0 && point.grown < 1.0;
-    return (slides ? mix(start, own, point.grown) : own) / float(place_weight());
-}
-
-vec3 grid_weights(patch_grid grid, ivec3 weights) {
-    vec3 own = edge_or_inner_weights(grid, weights);
-    float grown = point_of_grid(grid, weights).grown;
-    if (edge_with(weights) >= 0 || grown >= 1.0)
-        return own;
-    ivec3 direction = odd_direction(weights);
-    return mix(0.5 * (edge_or_inner_weights(grid, weights - direction) +
-                      edge_or_inner_weights(grid, weights + direction)), own, grown);
+    moving_vertex middle = moving_vertex(0.5 * neighbours.position, 0.5 * neighbours.weights);
+    return slid_vertex(middle, own, inside ? grown : 1.0);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -205,9 +207,9 @@ void main() {
     patch_grid grid = patch_grid(patch_of(found), sizes, segments_of(sizes.w));
     ivec2 place = lattice_row_of(number - offsets[found].x);
     ivec3 weights = lattice_point(grid.segments, place.x, place.y);
-    vertex result = base_vertex(grid.parts.triangle, grid_weights(grid, weights));
-    vec3 position = grid_position(grid, weights);
+    moving_vertex moving = vertex_of_grid(grid, weights);
+    vertex result = base_vertex(grid.parts.triangle, moving.weights);
     for (int i = 0; i < 3; ++i)
-        result.position[i] = position[i];
+        result.position[i] = moving.position[i];
     displaced[number] = result;
 }

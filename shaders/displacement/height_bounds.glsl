@@ -49,6 +49,7 @@ height_bounds bounds_over(vec2 low, vec2 high) {
     } else {
         uvec3 x = texels_of_range(low.x, high.x, constants.width, constants.wrap_u) >> texel_shift;
         uvec3 y = texels_of_range(low.y, high.y, constants.height, constants.wrap_v) >> texel_shift;
+        [[dont_unroll]]
         for (int i = 0; i < 9; ++i) {
             vec4 own = square_at(level, uvec2(x[i % 3], y[i / 3]));
             result = vec4(min(result.x, own.x), max(result.yzw, own.yzw));

@@ -4,6 +4,8 @@
 // Heights over the base mesh. Maps are read texel by texel and interpolated here, as samplers have
 // no more than 8 bits between texels: too few for a surface seen from near.
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "displacement/coordinates.glsl"
 
 layout(set = 0, binding = 6, std430) readonly buffer measure_block { chart_measure measures[]; };
@@ -47,6 +49,7 @@ float level_height(vec2 coordinates, int level) {
     int left = wrapped_texel(first.x, size.x, constants.wrap_u);
     int right = wrapped_texel(first.x + 1, size.x, constants.wrap_u);
     precise float result = 0.0;
+    [[dont_unroll]]
     for (int row = 0; row < 2; ++row) {
         int y = wrapped_texel(first.y + row, size.y, constants.wrap_v);
         precise float height = mix(texel_height(ivec2(left, y), level),

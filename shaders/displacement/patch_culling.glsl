@@ -82,6 +82,7 @@ struct patch_coordinates {
 patch_coordinates coordinates_of_patch(base_patch parts) {
     patch_coordinates result;
     result.measure = vec3(1e30, 1e30, 0.0);
+    [[dont_unroll]]
     for (int i = 0; i < 3; ++i) {
         chart_place place = place_in_triangle(
             parts.triangle, vec3(parts.corners[i]) / float(1 << constants.depth));
@@ -127,6 +128,7 @@ struct patch_displacement {
 
 patch_displacement displacement_of(base_site sites[3]) {
     vec3 offsets[3];
+    [[dont_unroll]]
     for (int i = 0; i < 3; ++i)
         offsets[i] = world_vector(constants.relief * site_direction(sites[i]));
     vec3 mean = (offsets[0] + offsets[1] + offsets[2]) / 3.0;

@@ -45,33 +45,43 @@ float triangle_texels(uint triangle, vec3 weights) {
     return length(in_texels(sum));
 }
 
-// Texels along an edge of a patch, from corner `first` to the next.
-float patch_texels(base_patch parts, int first) {
-    ivec3 a = parts.corners[first], b = parts.corners[(first + 1) % 3];
+// The first edge of a patch: from corner 0 to corner 1.
+
+float patch_texels(base_patch parts) {
+    ivec3 a = parts.corners[0], b = parts.corners[1];
     float rows = float(1 << constants.depth);
     int edge = a.z == 0 && b.z == 0 ? 0 : a.x == 0 && b.x == 0 ? 1 : a.y == 0 && b.y == 0 ? 2 : -1;
     return edge < 0 ? triangle_texels(parts.triangle, vec3(b - a) / rows)
                     : edge_texels(triangles[parts.triangle].edges[edge]) / rows;
 }
 
-base_site middle_of_edge(base_patch parts, int first) {
-    ivec3 ends = ivec3(1) - ivec3(first == 1, first == 2, first == 0);
-    return site_of(place_in_patch(parts, ends, 2));
-}
-
-float edge_size(base_patch parts, int first, vec3 corners[3]) {
-    base_site middle = middle_of_edge(parts, first);
-    precise float length_of_edge = length(corners[first] - corners[(first + 1) % 3]);
-    float size = min(pixel_size(middle, length_of_edge), log2(patch_texels(parts, first)));
+float edge_size(base_patch parts, vec3 corners[3]) {
+    base_site middle = site_of(place_in_patch(parts, ivec3(1, 1, 0), 2));
+    precise float length_of_edge = length(corners[0] - corners[1]);
+    float size = min(pixel_size(middle, length_of_edge), log2(patch_texels(parts)));
     if (constants.caster_count > 0u && !is_edge_in_picture(middle, length_of_edge))
         size -= float(PATCH_UNSEEN);
     return clamp(size, 0.0, float(PATCH_MOST));
+}
+
+// The edges take turns as the first, so that the code for an edge exists once: drivers take seconds
+// for three times as much.
+vec3 edge_sizes(base_patch parts, vec3 corners[3]) {
+    vec3 sizes = vec3(0.0);
+    [[dont_unroll]]
+    for (int i = 0; i < 3; ++i) {
+        sizes = vec3(sizes.yz, edge_size(parts, corners));
+        parts.corners = ivec3[3](parts.corners[1], parts.corners[2], parts.corners[0]);
+        corners = vec3[3](corners[1], corners[2], corners[0]);
+    }
+    return sizes;
 }
 
 vec4 patch_sizes(uint number) {
     base_patch parts = patch_of(number);
     base_site sites[3];
     vec3 corners[3];
+    [[dont_unroll]]
     for (int i = 0; i < 3; ++i) {
         ivec3 weights = ivec3(i == 0, i == 1, i == 2);
         sites[i] = site_of(place_in_patch(parts, weights, 1));
@@ -79,8 +89,7 @@ vec4 patch_sizes(uint number) {
     }
     if (!is_drawn(parts, sites, corners))
         return vec4(PATCH_CULLED);
-    vec3 sizes = vec3(edge_size(parts, 0, corners), edge_size(parts, 1, corners),
-                      edge_size(parts, 2, corners));
+    vec3 sizes = edge_sizes(parts, corners);
     return vec4(sizes, max(max(sizes.x, sizes.y), sizes.z));
 }
 

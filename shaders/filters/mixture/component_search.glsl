@@ -11,6 +11,7 @@
 const uint ROUNDS = 25;
 const uint MERGED = 2; // the third start
 const uint STARTS = 3;
+const uint GIVEN = STARTS; // components are there already, and stay as they are
 const float LEAST_GAIN = 0.02; // of the squared lobes, that it must be better than the others
 
 shared mixture_component kept[BINS];
@@ -44,27 +45,32 @@ float overlap_with_sample(mixture_sample lobe, mixture_units units) {
     return sum;
 }
 
+mixture_sample as_sample(mixture_component component) {
+    return mixture_sample(component.mean, component.covariance.xyz, vec2(0.0), component.part);
+}
+
 // The squared difference between all components and all lobes, integrated over the plane, without
 // what does not depend on the components. (Likelihoods do not tell which of two fits a picture is
 // better with.)
 float squared_error(sampled_area area, mixture_units units) {
-    float overlap = 0.0, mass = 0.0;
-    for (uint i = thread(); i < sample_count(area); i += THREADS) {
-        mixture_sample lobe = area_sample(area, i, units);
-        overlap += lobe.mass * overlap_with_sample(lobe, units);
-        mass += lobe.mass;
+    // Of all lobes with all components, of all components with each other; the lobes' mass. One
+    // loop, so that the code for an overlap exists once: compilers take seconds for this shader.
+    vec3 sums = vec3(0.0);
+    uint count = sample_count(area);
+    for (uint i = thread(); i < count + COMPONENTS; i += THREADS) {
+        bool is_lobe = i < count;
+        mixture_sample other;
+        if (is_lobe)
+            other = area_sample(area, i, units);
+        else
+            other = as_sample(components[i - count]);
+        float overlap = other.mass * overlap_with_sample(other, units);
+        sums += is_lobe ? vec3(overlap, 0.0, other.mass) : vec3(0.0, overlap, 0.0);
     }
-    own_numbers[0][thread()] = overlap;
-    own_numbers[1][thread()] = mass;
-    merge_sums(2);
-    float error = -2.0 * numbers[0] / numbers[1];
-    for (int j = 0; j < COMPONENTS; ++j) {
-        mixture_sample as_sample =
-            mixture_sample(components[j].mean, components[j].covariance.xyz, vec2(0.0), 1.0);
-        error += components[j].part * overlap_with_sample(as_sample, units);
-    }
-    barrier();
-    return error;
+    for (uint k = 0u; k < 3u; ++k)
+        own_numbers[k][thread()] = sums[k];
+    merge_sums(3);
+    return numbers[1] - 2.0 * numbers[0] / numbers[2];
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -130,26 +136,22 @@ void merge_components(mixture_units units) {
     set_aside(BINS);
 }
 
-void take_steps(sampled_area area, uint by_distance, mixture_units units) {
-    for (uint round = 0; round < ROUNDS; ++round) {
-        mixture_units shape = units;
-        shape.is_round = units.is_round && round + 1u < ROUNDS;
-        take_step(area, round < by_distance, shape);
-    }
-}
-
 // From a start, to the components that their lobes make. With fewer components than the lobes have
 // groups, which are best together is found from all groups: what is nearest is often something
 // sharp and frequent that should stay alone.
 float fit_from(sampled_area area, uint start, mixture_units units) {
     uint count = start == MERGED ? COMPONENTS : BINS;
     set_aside(count);
-    for (int j = 0; j < int(count); ++j)
+    for (int j = 0; j < (start == GIVEN ? 0 : int(count)); ++j)
         add_component(area, j, start == MERGED ? FAR_APART : start, units);
-    take_steps(area, start == K_MEANS ? ROUNDS_OF_K_MEANS : 1u, units);
-    if (start == MERGED) {
-        merge_components(units);
-        take_steps(area, 0u, units);
+    uint rounds = start == GIVEN ? 0u : start == MERGED ? 2u * ROUNDS : ROUNDS;
+    uint by_distance = start == K_MEANS ? ROUNDS_OF_K_MEANS : 1u;
+    for (uint round = 0; round < rounds; ++round) {
+        if (round == ROUNDS)
+            merge_components(units);
+        mixture_units shape = units;
+        shape.is_round = units.is_round && (round + 1u) % ROUNDS != 0u;
+        take_step(area, round < by_distance, shape);
     }
     return squared_error(area, units);
 }

@@ -28,7 +28,7 @@ shared float numbers[NUMBERS * COMPONENTS];
 shared component_density densities[COMPONENTS];
 shared mixture_component components[COMPONENTS];
 shared float keys[THREADS];
-shared uint key_samples[THREADS];
+shared uint chosen_thread;
 
 uint thread() {
     return gl_LocalInvocationID.x;
@@ -139,26 +139,27 @@ float key_of(mixture_sample lobe, uint index, int count, uint start) {
 // Makes component `count` of the sample with the largest key.
 void add_component(sampled_area area, int count, uint start, mixture_units units) {
     float best = -1.0;
-    uint best_sample = 0;
+    vec3 best_place = vec3(0.0);
     for (uint i = thread(); i < sample_count(area); i += THREADS) {
-        float key = key_of(area_sample(area, i, units), i, count, start);
+        mixture_sample lobe = area_sample(area, i, units);
+        float key = key_of(lobe, i, count, start);
         if (key > best) {
             best = key;
-            best_sample = i;
+            best_place = lobe.place;
         }
     }
     keys[thread()] = best;
-    key_samples[thread()] = best_sample;
     barrier();
     if (thread() == 0) {
+        chosen_thread = 0;
         for (uint i = 1; i < THREADS; ++i) {
-            if (keys[i] > best) {
-                best = keys[i];
-                best_sample = key_samples[i];
-            }
+            if (keys[i] > keys[chosen_thread])
+                chosen_thread = i;
         }
-        components[count] = first_component(area_sample(area, best_sample, units).place, units);
     }
+    barrier();
+    if (thread() == chosen_thread)
+        components[count] = first_component(best_place, units);
     barrier();
 }
 

@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
 // One level of a map of mixtures: each texel's components, from its parent's by a few steps of
@@ -46,6 +47,7 @@ vec2 drawn_to_neighbours(level_box box, int index, mixture_component own) {
     float samples = own.part * float(constants.width * constants.height) /
                     float(box.size.x * box.size.y);
     vec3 sum = samples * vec3(own.mean.xy, 1.0);
+    [[dont_unroll]]
     for (int i = 0; i < 5; ++i) {
         mixture_component other =
             parent_component(clamp(parent + offsets[i], ivec2(0), end), index);
@@ -89,6 +91,7 @@ level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
     for (uint y = box.low.y; y < box.high.y; ++y) {
         for (uint x = box.low.x; x < box.high.x; ++x) {
             float weight = weight_of(box, uvec2(x, y));
+            [[dont_unroll]]
             for (int i = 0; i < LOBE_COUNT; ++i)
                 add_lobe(sums, ivec2(x, y), i, weight, nearest, units, densities);
             if (BIN_COLOUR)
@@ -183,10 +186,7 @@ void write_sums(uvec2 texel, level_sums sums,
                    vec4(sums.diffuse, 0.0) * colour_unit);
 }
 
-// Where finer levels start: one step further than what the sums were found with.
-void keep_components(level_box box, level_sums sums, mixture_units units,
-                     mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
-    improve(box, sums, false, units, components);
+void keep_components(level_box box, mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     for (int j = 0; j < BINS; ++j) {
         imageStore(component_map, ivec3(box.texel, 2 * j),
                    vec4(components[j].part, components[j].mean));
@@ -209,17 +209,20 @@ void main() {
         start_apart(box, units, components);
         rounds = MIXTURE_ROUNDS_OF_K_MEANS;
     }
+    // Finer levels start one step further than what the sums are found with.
+    bool is_kept = imageSize(component_map).xy == ivec2(size);
+    mixture_component summed[MIXTURE_MAXIMUM_COMPONENTS];
     level_sums sums;
-    for (uint step = 0;; ++step) {
+    for (uint step = 0; step <= rounds + constants.steps; ++step) {
         sums = sum_lobes(box, step < rounds, units, components);
-        if (step == rounds + constants.steps)
-            break;
-        improve(box, sums, step < rounds, units, components);
+        summed = components;
+        if (step < rounds + constants.steps || is_kept)
+            improve(box, sums, step < rounds, units, components);
     }
-    if (imageSize(component_map).xy == ivec2(size))
-        keep_components(box, sums, units, components);
+    if (is_kept)
+        keep_components(box, components);
     if (PROJECTED)
-        write_layers(texel, sums, units, components);
+        write_layers(texel, sums, units, summed);
     else
-        write_sums(texel, sums, components);
+        write_sums(texel, sums, summed);
 }

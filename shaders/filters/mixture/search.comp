@@ -1,4 +1,5 @@
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
 // Components of a level of few texels, searched for as those of the whole map are, where these are
@@ -16,12 +17,17 @@ const uint CELLS = 32; // along each side
 // neighbours' likeness for nothing.
 const float LEAST_IMPROVEMENT = 0.005;
 
+shared mixture_component parents[BINS];
+
 // In the order in which they are most like the parent's, so that interpolation between texels
 // blends like with like: pairs change places while less would be lost by merging each component
 // with the parent's. One thread.
-void order_components(mixture_component parents[MIXTURE_MAXIMUM_COMPONENTS], mixture_units units) {
+void order_components(mixture_units units) {
+    [[dont_unroll]]
     for (uint round = 0u; round < BINS; ++round) {
+        [[dont_unroll]]
         for (uint i = 0u; i < BINS; ++i) {
+            [[dont_unroll]]
             for (uint j = i + 1u; j < BINS; ++j) {
                 float loss = loss_of_merger(parents[i], kept[i], units) +
                              loss_of_merger(parents[j], kept[j], units);
@@ -40,21 +46,20 @@ void order_components(mixture_component parents[MIXTURE_MAXIMUM_COMPONENTS], mix
 void main() {
     uvec2 texel = gl_WorkGroupID.xy, size = uvec2(imageSize(component_map).xy);
     mixture_units units = units_of_map();
-    mixture_component parents[MIXTURE_MAXIMUM_COMPONENTS];
-    for (uint j = 0u; j < BINS; ++j)
-        parents[j] = parent_component(parent_of(texel, size), int(j));
-    if (thread() < BINS)
-        components[thread()] = parents[thread()];
-    set_aside(BINS);
-    keep_components();
+    if (thread() < BINS) {
+        parents[thread()] = parent_component(parent_of(texel, size), int(thread()));
+        components[thread()] = kept[thread()] = parents[thread()];
+    }
     uvec2 low = box_low(texel, size);
     sampled_area area = make_area(low, box_high(texel, size) - low, CELLS);
-    float least_error = squared_error(area, units);
-    least_error -= LEAST_IMPROVEMENT * abs(least_error);
-    for (uint start = 0u; start < STARTS; ++start)
-        keep_better(area, start, units, least_error);
+    float least_error = 1e38;
+    for (uint i = 0u; i <= STARTS; ++i) {
+        keep_better(area, i == 0u ? GIVEN : i - 1u, units, least_error);
+        if (i == 0u)
+            least_error -= LEAST_IMPROVEMENT * abs(least_error);
+    }
     if (thread() == 0u)
-        order_components(parents, units);
+        order_components(units);
     barrier();
     if (thread() < BINS) {
         int j = int(thread());
