@@ -29,7 +29,9 @@ layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 
 layout(LOBE_DESCRIPTOR(36)) uniform sampler2DArray transfer_map;
-layout(LOBE_DESCRIPTOR(37), std140) uniform closure_block {
+// A storage buffer: lavapipe reads a number that is the same for all threads once from it, and once
+// for each thread from a uniform one.
+layout(LOBE_DESCRIPTOR(37), std430) readonly buffer closure_block {
     transfer_closure_constants closure;
 };
 layout(LOBE_DESCRIPTOR(38)) uniform sampler2DArray facet_map;
@@ -203,23 +205,27 @@ polynomials sum_of(polynomials a, float of_a, polynomials b, float of_b) {
     return a;
 }
 
+// Of the map, but for the first, which is the first polynomial; the others have nothing of it.
 polynomials function_of(uint k) {
     polynomials result;
     for (uint i = 0u; i < 4u; ++i)
         result.terms[i] = closure.basis.functions[4u * k + i];
+    result.terms[0].x = 0.0;
     return result;
 }
 
 // Factors of the map's functions, as those of the polynomials.
 polynomials in_polynomials(float functions[ORDER]) {
-    polynomials sum = scaled(function_of(0u), functions[0]);
-    for (uint k = 1u; k < ORDER; ++k)
+    polynomials sum = scaled(function_of(1u), functions[1]);
+    for (uint k = 2u; k < ORDER; ++k)
         sum = sum_of(sum, 1.0, function_of(k), functions[k]);
+    sum.terms[0].x = functions[0];
     return sum;
 }
 
 void in_functions(polynomials values, out float functions[ORDER]) {
-    for (uint k = 0u; k < ORDER; ++k)
+    functions[0] = values.terms[0].x;
+    for (uint k = 1u; k < ORDER; ++k)
         functions[k] = product(function_of(k), values);
 }
 

@@ -41,9 +41,8 @@ ivec2 first_period(ivec2 quad) {
 // Quads and facets
 
 // The heights of a quad's corners: of its vertex, the next along x, along y, and along both.
-// `first`: the quad, in the first period.
-vec4 corner_heights(ivec2 first) {
-    ivec2 size = relief_size();
+// `first`: the quad, in the first period; `size`: of that.
+vec4 corner_heights(ivec2 first, ivec2 size) {
     ivec2 next = ivec2(first.x + 1 < size.x ? first.x + 1 : 0,
                        first.y + 1 < size.y ? first.y + 1 : 0);
     return vec4(heights[first.y * size.x + first.x], heights[first.y * size.x + next.x],
@@ -51,7 +50,7 @@ vec4 corner_heights(ivec2 first) {
 }
 
 vec4 quad_heights(ivec2 quad) {
-    return corner_heights(first_period(quad));
+    return corner_heights(first_period(quad), relief_size());
 }
 
 // A quad's diagonal from its vertex divides it into facets: lower, where x is the larger, and
@@ -69,11 +68,16 @@ vec3 facet_normal(vec2 slope) {
 // Walking along a ray, over nodes of the levels of maxima; level 0: quads
 
 struct relief_walk {
+    // Of the relief, read once: drivers may read what is the same for all threads for each of them.
+    ivec2 size;
+    int last_level;
+    float largest; // height
     vec3 origin;
     vec3 direction;
     vec2 inverse; // of the direction
     ivec2 quad;   // where the walk is
     int level;
+    int offset; // of the level's first value
     float place;        // along the ray
     float leave;        // where it leaves the node
     bool leaves_by_x;   // through a side of the node perpendicular to x
@@ -88,13 +92,12 @@ float inverse_of(float x) {
 // The quad is in the period of the node before, or in one beside it: divisions would take most of
 // a step's time.
 void find_node(inout relief_walk walk) {
-    ivec2 size = relief_size();
-    walk.tile += mix(ivec2(0), size, greaterThanEqual(walk.quad, walk.tile + size)) -
-                 mix(ivec2(0), size, lessThan(walk.quad, walk.tile));
+    walk.tile += mix(ivec2(0), walk.size, greaterThanEqual(walk.quad, walk.tile + walk.size)) -
+                 mix(ivec2(0), walk.size, lessThan(walk.quad, walk.tile));
     ivec2 local = walk.quad - walk.tile;
     int shift = 2 * walk.level;
     walk.first = walk.tile + ((local >> shift) << shift);
-    walk.last = min(walk.first + (1 << shift), walk.tile + size);
+    walk.last = min(walk.first + (1 << shift), walk.tile + walk.size);
     vec2 sides = vec2(walk.direction.x < 0.0 ? walk.first.x : walk.last.x,
                       walk.direction.y < 0.0 ? walk.first.y : walk.last.y);
     vec2 exits = (sides - walk.origin.xy) * walk.inverse;
@@ -102,24 +105,40 @@ void find_node(inout relief_walk walk) {
     walk.leave = max(min(exits.x, exits.y), walk.place);
 }
 
-// At the top level, or at level 0 in the middle of facets.
+// Above the relief, or at level 0 in the middle of facets.
 relief_walk start_walk(vec3 origin, vec3 direction, int level) {
     relief_walk walk;
+    walk.size = relief_size();
+    walk.last_level = int(relief.last_level);
+    walk.largest = largest_height();
     walk.origin = origin;
     walk.direction = direction;
     walk.inverse = vec2(inverse_of(direction.x), inverse_of(direction.y));
     walk.quad = ivec2(floor(origin.xy));
     walk.tile = walk.quad - first_period(walk.quad);
     walk.level = level;
+    walk.offset = int(relief.levels[level].offset);
     walk.place = 0.0;
     find_node(walk);
     return walk;
 }
 
+// Nodes of a level.
+ivec2 nodes_of_level(relief_walk walk, int level) {
+    return (walk.size + (1 << (2 * level)) - 1) >> (2 * level);
+}
+
 float node_maximum(relief_walk walk) {
-    height_level level = relief.levels[walk.level];
     ivec2 node = (walk.first - walk.tile) >> (2 * walk.level);
-    return heights[level.offset + uint(node.y) * level.width + uint(node.x)];
+    return heights[walk.offset + node.y * nodes_of_level(walk, walk.level).x + node.x];
+}
+
+// To the node of the next finer level.
+void descend(inout relief_walk walk) {
+    --walk.level;
+    ivec2 nodes = nodes_of_level(walk, walk.level);
+    walk.offset -= nodes.x * nodes.y;
+    find_node(walk);
 }
 
 // In the first period.
@@ -128,7 +147,7 @@ ivec2 local_quad(relief_walk walk) {
 }
 
 // To the node behind the one that the walk leaves; a level up where that is also the end of the
-// level's node. find_node finds it.
+// level's node.
 void advance(inout relief_walk walk) {
     walk.place = walk.leave;
     vec2 at = walk.origin.xy + walk.place * walk.direction.xy;
@@ -138,16 +157,20 @@ void advance(inout relief_walk walk) {
         bool forwards = !(walk.direction.x < 0.0);
         walk.quad = ivec2(forwards ? walk.last.x : walk.first.x - 1, inside.y);
         side = (forwards ? walk.last.x : walk.first.x) - walk.tile.x;
-        size = int(relief.width);
+        size = walk.size.x;
     } else {
         bool forwards = !(walk.direction.y < 0.0);
         walk.quad = ivec2(inside.x, forwards ? walk.last.y : walk.first.y - 1);
         side = (forwards ? walk.last.y : walk.first.y) - walk.tile.y;
-        size = int(relief.height);
+        size = walk.size.y;
     }
     bool ends = side == size || (side & ((1 << shift) - 1)) == 0;
-    if (ends && walk.level < int(relief.last_level))
+    if (ends && walk.level < walk.last_level) {
+        ivec2 nodes = nodes_of_level(walk, walk.level);
+        walk.offset += nodes.x * nodes.y;
         ++walk.level;
+    }
+    find_node(walk);
 }
 
 // Where the walk through a quad crosses its diagonal, within the quad.
@@ -191,7 +214,7 @@ bool meets_facet(relief_walk walk, vec4 corners, bool upper, float from, float t
 }
 
 bool meets_quad(relief_walk walk, out float place, out bool upper) {
-    vec4 corners = corner_heights(local_quad(walk));
+    vec4 corners = corner_heights(local_quad(walk), walk.size);
     float crossing = crossing_of_diagonal(walk);
     upper = is_upper(walk, 0.5 * (walk.place + crossing));
     if (meets_facet(walk, corners, upper, walk.place, crossing, place))
@@ -204,7 +227,7 @@ relief_hit hit_at(relief_walk walk, float place, bool upper) {
     relief_hit hit;
     hit.found = true;
     hit.upper = upper;
-    vec4 corners = corner_heights(local_quad(walk));
+    vec4 corners = corner_heights(local_quad(walk), walk.size);
     vec2 slope = facet_slope(corners, upper);
     vec2 inside = clamp(walk.origin.xy + place * walk.direction.xy - vec2(walk.quad), 0.0, 1.0);
     hit.quad = local_quad(walk);
@@ -213,27 +236,35 @@ relief_hit hit_at(relief_walk walk, float place, bool upper) {
     return hit;
 }
 
+// The level at which a ray from above begins: it meets the relief soon, and goes down a level in
+// each step.
+const int FIRST_LEVEL = 2;
+
+bool may_meet_node(relief_walk walk) {
+    float lowest = walk.origin.z +
+                   walk.direction.z * (walk.direction.z < 0.0 ? walk.leave : walk.place);
+    return lowest <= node_maximum(walk);
+}
+
 relief_hit trace_relief(vec3 origin, vec3 direction) {
-    int level = origin.z > largest_height() ? int(relief.last_level) : 0;
+    int level = origin.z > largest_height() ? min(FIRST_LEVEL, int(relief.last_level)) : 0;
     relief_walk walk = start_walk(origin, direction, level);
     relief_hit none;
     none.found = false;
     for (int i = 0; i < WALK_STEPS; ++i) {
-        float lowest = walk.origin.z + walk.direction.z *
-                                           (walk.direction.z < 0.0 ? walk.leave : walk.place);
-        if (walk.level > 0 && lowest <= node_maximum(walk)) {
-            --walk.level;
-        } else {
-            float place;
-            bool upper;
-            if (walk.level == 0 && meets_quad(walk, place, upper))
-                return hit_at(walk, place, upper);
-            if (walk.direction.z >= 0.0 &&
-                walk.origin.z + walk.leave * walk.direction.z >= largest_height())
-                return none;
-            advance(walk);
-        }
-        find_node(walk);
+        bool goes_down = walk.level > 0 && may_meet_node(walk);
+        if (goes_down)
+            descend(walk);
+        float place;
+        bool upper;
+        if (walk.level == 0 && meets_quad(walk, place, upper))
+            return hit_at(walk, place, upper);
+        if (goes_down && walk.level > 0)
+            continue;
+        if (walk.direction.z >= 0.0 &&
+            walk.origin.z + walk.leave * walk.direction.z >= walk.largest)
+            return none;
+        advance(walk);
     }
     return none;
 }

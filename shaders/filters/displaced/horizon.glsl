@@ -15,7 +15,7 @@ void raise(inout float slope, relief_walk walk, vec4 corners, bool upper, float 
 }
 
 void raise_by_quad(inout float slope, relief_walk walk, float unit) {
-    vec4 corners = corner_heights(local_quad(walk));
+    vec4 corners = corner_heights(local_quad(walk), walk.size);
     float crossing = crossing_of_diagonal(walk);
     bool first = is_upper(walk, 0.5 * (walk.place + crossing));
     raise(slope, walk, corners, first, crossing, unit);
@@ -32,19 +32,18 @@ const float REACH = 4.0;
 // further away than REACH times `period`.
 float horizon(vec3 origin, vec2 along, float unit, float least_rise, float period, float slope) {
     relief_walk walk = start_walk(origin, vec3(along, 0.0), 0);
-    float rise = unit * (largest_height() - origin.z);
+    float rise = unit * (walk.largest - origin.z);
     for (int i = 0; i < WALK_STEPS; ++i) {
         float least = (slope + least_rise) * walk.place;
         if (rise <= least || walk.place > REACH * period)
             break;
-        if (walk.level > 0 && unit * (node_maximum(walk) - origin.z) > least) {
-            --walk.level;
-        } else {
-            if (walk.level == 0)
-                raise_by_quad(slope, walk, unit);
+        bool goes_down = walk.level > 0 && unit * (node_maximum(walk) - origin.z) > least;
+        if (goes_down)
+            descend(walk);
+        if (walk.level == 0)
+            raise_by_quad(slope, walk, unit);
+        if (!goes_down || walk.level == 0)
             advance(walk);
-        }
-        find_node(walk);
     }
     return slope;
 }
