@@ -1,5 +1,4 @@
 #version 460
-#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
 // One level of a map of mixtures: each texel's components, from its parent's by a few steps of
@@ -47,7 +46,6 @@ vec2 drawn_to_neighbours(level_box box, int index, mixture_component own) {
     float samples = own.part * float(constants.width * constants.height) /
                     float(box.size.x * box.size.y);
     vec3 sum = samples * vec3(own.mean.xy, 1.0);
-    [[dont_unroll]]
     for (int i = 0; i < 5; ++i) {
         mixture_component other =
             parent_component(clamp(parent + offsets[i], ivec2(0), end), index);
@@ -91,7 +89,6 @@ level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
     for (uint y = box.low.y; y < box.high.y; ++y) {
         for (uint x = box.low.x; x < box.high.x; ++x) {
             float weight = weight_of(box, uvec2(x, y));
-            [[dont_unroll]]
             for (int i = 0; i < LOBE_COUNT; ++i)
                 add_lobe(sums, ivec2(x, y), i, weight, nearest, units, densities);
             if (BIN_COLOUR)
@@ -186,7 +183,10 @@ void write_sums(uvec2 texel, level_sums sums,
                    vec4(sums.diffuse, 0.0) * colour_unit);
 }
 
-void keep_components(level_box box, mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
+// Where finer levels start: one step further than what the sums were found with.
+void keep_components(level_box box, level_sums sums, mixture_units units,
+                     mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
+    improve(box, sums, false, units, components);
     for (int j = 0; j < BINS; ++j) {
         imageStore(component_map, ivec3(box.texel, 2 * j),
                    vec4(components[j].part, components[j].mean));
@@ -209,20 +209,17 @@ void main() {
         start_apart(box, units, components);
         rounds = MIXTURE_ROUNDS_OF_K_MEANS;
     }
-    // Finer levels start one step further than what the sums are found with.
-    bool is_kept = imageSize(component_map).xy == ivec2(size);
-    mixture_component summed[MIXTURE_MAXIMUM_COMPONENTS];
     level_sums sums;
-    for (uint step = 0; step <= rounds + constants.steps; ++step) {
+    for (uint step = 0;; ++step) {
         sums = sum_lobes(box, step < rounds, units, components);
-        summed = components;
-        if (step < rounds + constants.steps || is_kept)
-            improve(box, sums, step < rounds, units, components);
+        if (step == rounds + constants.steps)
+            break;
+        improve(box, sums, step < rounds, units, components);
     }
-    if (is_kept)
-        keep_components(box, components);
+    if (imageSize(component_map).xy == ivec2(size))
+        keep_components(box, sums, units, components);
     if (PROJECTED)
-        write_layers(texel, sums, units, summed);
+        write_layers(texel, sums, units, components);
     else
-        write_sums(texel, sums, summed);
+        write_sums(texel, sums, components);
 }
