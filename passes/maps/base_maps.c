@@ -4,7 +4,6 @@
 
 #include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/specialisation.h"
 
@@ -49,6 +48,18 @@ void passes_base_maps_specialise(const device_material *material, specialisation
                           passes_device_map_is_interpolated(material, MAP_WIDTH));
 }
 
+void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,
+                          const char *const shaders[2], const specialisation_list *list,
+                          lobe_pass *pass, reduced_map *map) {
+    lobe_dispatch dispatch = {.shader = shaders[map->tiles.version > 0],
+                              .constants = extent,
+                              .constants_size = sizeof *extent,
+                              .specialisation = list->items,
+                              .specialisation_count = list->count};
+    passes_reduced_map_dispatch(map, pass, 0, 1, &dispatch);
+    passes_level_reduction(context->graph, map);
+}
+
 reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
                             const lobe_map_kind *kind, lobe_format format) {
     const device_material *material = &context->scene->materials[index];
@@ -64,12 +75,7 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     if (kind->read_more)
         kind->read_more(context, material, pass, &list);
     const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
-    lobe_dispatch dispatch = {.shader = context->marks ? kind->seen_shader : kind->shader,
-                              .constants = &extent,
-                              .constants_size = sizeof extent,
-                              .specialisation = list.items,
-                              .specialisation_count = list.count};
-    passes_reduced_map_dispatch(&map, pass, 0, 1, &dispatch);
-    passes_level_reduction(context->graph, &map);
+    const char *const shaders[] = {kind->shader, kind->seen_shader};
+    passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;
 }

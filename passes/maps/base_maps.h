@@ -4,6 +4,7 @@
 #include "passes/context/filter.h"
 #include "passes/context/material_specialisation.h"
 #include "passes/maps/level_reduction.h"
+#include "shaders/interface/lobe_grid.h"
 
 /// A material's own maps, for passes that build filtered maps from them.
 
@@ -21,6 +22,13 @@ void passes_base_maps_specialise(const device_material *material, specialisation
 /// on no map of colours.
 void passes_colour_maps_read(const filter_context *context, const device_material *material,
                              bool reads, lobe_pass *pass);
+
+/// Adds to `pass` the dispatch that makes level 0 of `map` on a grid of `extent` texels, which are
+/// its push constants, and then the reduction. `shaders`: for whole maps, and its variant
+/// SEEN_TILES (passes/maps/seen_tiles.h).
+void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,
+                          const char *const shaders[2], const specialisation_list *list,
+                          lobe_pass *pass, reduced_map *map);
 
 /// A map whose level 0 one compute pass makes from the base maps. Its push constants are the grid's
 /// width and height.

@@ -116,7 +116,7 @@ static double likelihood_of(const column_block *block) {
 }
 
 static void add_shares(const lobe_chance *chance, const column_block *block, const float *shares,
-                       share_sums *sums) {
+                       plane_sums *sums) {
     float lanes[7][LANES] = {{0}};
     for (uint32_t i = 0; i < BLOCK; i += LANES) {
         for (uint32_t l = 0; l < LANES; l++) {
@@ -140,7 +140,7 @@ static void add_shares(const lobe_chance *chance, const column_block *block, con
 }
 
 double passes_lobe_columns_share(const lobe_columns *columns, const lobe_chance *chances,
-                                 uint32_t count, share_sums *sums) {
+                                 uint32_t count, plane_sums *sums) {
     double likelihood = 0;
     memset(sums, 0, count * sizeof *sums);
     for (uint32_t first = 0; first < columns->count; first += BLOCK) {

@@ -21,15 +21,9 @@ typedef struct lobe_chance {
     float squares[3]; ///< A: xx, yy, xy
 } lobe_chance;
 
-/// Sums of the shares that a component has of lobes: their weight, d, its second moments (xx, yy,
-/// xy), and variance.
-typedef struct share_sums {
-    double weight, place[2], moments[3], variance;
-} share_sums;
-
-/// Shares all lobes out to `count` components [1, MOMENT_MAXIMUM_BINS]. Returns the mean logarithm
-/// of the sum of chances.
+/// Shares all lobes out to `count` components [1, MOMENT_MAXIMUM_BINS], and sums what each has of
+/// them, with places from its mean. Returns the mean logarithm of the sum of chances.
 double passes_lobe_columns_share(const lobe_columns *columns, const lobe_chance *chances,
-                                 uint32_t count, share_sums *sums);
+                                 uint32_t count, plane_sums *sums);
 
 #endif

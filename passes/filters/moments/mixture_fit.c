@@ -51,20 +51,9 @@ double passes_mixture_share(const plane_mixture *m, const plane_sample *s,
     return most + log(sum);
 }
 
-void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weight) {
-    double x = s->place[0], y = s->place[1];
-    sums->weight += weight;
-    sums->place[0] += weight * x;
-    sums->place[1] += weight * y;
-    sums->moments[0] += weight * x * x;
-    sums->moments[1] += weight * y * y;
-    sums->moments[2] += weight * x * y;
-    sums->variance += weight * s->variance;
-}
-
 /// The Gaussian of the sums, of which it has `weight` and whose places are from its mean; `points`
 /// as for a fit.
-static void move_component(const share_sums *sums, double weight, double points,
+static void move_component(const plane_sums *sums, double weight, double points,
                            mixture_component *c) {
     const double total = fmax(sums->weight, 1e-12), variance = sums->variance / total;
     const double step[2] = {sums->place[0] / total, sums->place[1] / total};
@@ -146,21 +135,10 @@ static void find_middle(const plane_sample *samples, uint32_t count, double midd
         middle[i] = sums.place[i] / sums.weight;
 }
 
-static void add_sample(share_sums *sums, const plane_sample *s, const double middle[2]) {
-    const double x = s->place[0] - middle[0], y = s->place[1] - middle[1];
-    sums->weight += s->weight;
-    sums->place[0] += s->weight * x;
-    sums->place[1] += s->weight * y;
-    sums->moments[0] += s->weight * x * x;
-    sums->moments[1] += s->weight * y * y;
-    sums->moments[2] += s->weight * x * y;
-    sums->variance += s->weight * s->variance;
-}
-
 /// From equal steps of the key; false if that is about the same everywhere.
 static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t start,
                          plane_mixture *m) {
-    share_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
+    plane_sums sums[MOMENT_MAXIMUM_BINS] = {{0}};
     double least = INFINITY, most = -INFINITY, total = 0, middle[2];
     find_middle(samples, count, middle);
     for (uint32_t i = 0; i < count; i++) {
@@ -174,7 +152,10 @@ static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t s
     for (uint32_t i = 0; i < count; i++) {
         double part = (key_of(&samples[i], middle, start) - least) / (most - least);
         uint32_t k = (uint32_t)(0.999 * part * m->count);
-        add_sample(&sums[k], &samples[i], middle);
+        plane_sample moved = samples[i];
+        for (int j = 0; j < 2; j++)
+            moved.place[j] -= middle[j];
+        passes_plane_sums_add(&sums[k], &moved, moved.weight);
     }
     for (uint32_t k = 0; k < m->count; k++) {
         m->components[k] = (mixture_component){.mean = {middle[0], middle[1]}};
@@ -188,7 +169,7 @@ static bool start_by_key(const plane_sample *samples, uint32_t count, uint32_t s
 
 static void improve(const lobe_columns *lobes, plane_mixture *m) {
     lobe_chance chances[MOMENT_MAXIMUM_BINS];
-    share_sums sums[MOMENT_MAXIMUM_BINS];
+    plane_sums sums[MOMENT_MAXIMUM_BINS];
     for (uint32_t k = 0; k < m->count; k++) {
         const mixture_component *c = &m->components[k];
         chances[k] = (lobe_chance){.mean = {(float)c->mean[0], (float)c->mean[1]},

@@ -33,12 +33,6 @@ void passes_mixture_fit(const plane_sample *samples, uint32_t count, uint32_t bi
 double passes_mixture_share(const plane_mixture *mixture, const plane_sample *sample,
                             double members[MOMENT_MAXIMUM_BINS]);
 
-/// Sums of samples: weight, place, second moments of the place, and variance.
-typedef struct plane_sums {
-    double weight, place[2], moments[3], variance;
-} plane_sums;
-
-void passes_plane_sums_add(plane_sums *sums, const plane_sample *sample, double weight);
 /// Half the trace of the places' covariance.
 double passes_plane_spread(const plane_sample *samples, uint32_t count);
 

@@ -56,3 +56,14 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
     }
     return count;
 }
+
+void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weight) {
+    double x = s->place[0], y = s->place[1];
+    sums->weight += weight;
+    sums->place[0] += weight * x;
+    sums->place[1] += weight * y;
+    sums->moments[0] += weight * x * x;
+    sums->moments[1] += weight * y * y;
+    sums->moments[2] += weight * x * y;
+    sums->variance += weight * s->variance;
+}

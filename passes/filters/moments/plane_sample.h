@@ -21,6 +21,13 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
 /// The variance of a material's lobe of this concentration.
 double passes_plane_variance(const lobe_material *material, double concentration);
 
+/// Sums of samples: weight, place, second moments of the place (xx, yy, xy), and variance.
+typedef struct plane_sums {
+    double weight, place[2], moments[3], variance;
+} plane_sums;
+
+void passes_plane_sums_add(plane_sums *sums, const plane_sample *sample, double weight);
+
 /// The covariance (xx, yy, xy) at a place of a variance of one about it, and its inverse.
 void passes_plane_distortion(const double place[2], double covariance[3], double inverse[3]);
 

@@ -6,7 +6,6 @@
 #include "passes/maps/base_maps.h"
 #include "passes/maps/seen_tiles.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/specialisation.h"
 
@@ -81,13 +80,8 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
             (coloured && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
     const struct lobe_grid_constants extent = extent_of(material);
-    lobe_dispatch dispatch = {.shader = map.tiles.version > 0 ? "maps/metal_means_seen_tiles.comp"
-                                                              : "maps/metal_means.comp",
-                              .constants = &extent,
-                              .constants_size = sizeof extent,
-                              .specialisation = list.items,
-                              .specialisation_count = list.count};
-    passes_reduced_map_dispatch(&map, pass, 0, 1, &dispatch);
-    passes_level_reduction(context->graph, &map);
+    static const char *const shaders[] = {"maps/metal_means.comp",
+                                          "maps/metal_means_seen_tiles.comp"};
+    passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;
 }

@@ -146,6 +146,19 @@ static void every_filter_draws_what_it_draws_of_uploaded_texels(void **state) {
     giver_free(&g);
 }
 
+/// All filters' pictures are finite, and less than `most` (relative L2) from another.
+static void check_filters(fixture *f, giver *g, const lobe_frame *truth, double most) {
+    for (size_t i = 0; i < lobe_filter_count(); i++) {
+        const char *filter = lobe_filter_name(lobe_filter_get(i));
+        lobe_frame frame = picture(f, filter, g);
+        const double error = relative_l2(&frame.radiance, &truth->radiance);
+        print_message("# %s: error %.3f\n", filter, error);
+        if (!all_finite(&frame.radiance) || !(error < most))
+            fail_msg("%s: another picture, by %g", filter, error);
+        lobe_frame_free(&frame);
+    }
+}
+
 /// A texel in fifty of each map, one channel or all, as the host's shader might leave them.
 static void spoil(const lobe_scene *scene, giver *g) {
     static const float nonsense[3] = {NAN, INFINITY, -INFINITY};
@@ -172,15 +185,7 @@ static void texels_may_be_no_numbers(void **state) {
     spoil(scene, &g);
     put_on_device(scene, true);
     set(f, scene);
-    for (size_t i = 0; i < lobe_filter_count(); i++) {
-        const char *filter = lobe_filter_name(lobe_filter_get(i));
-        lobe_frame frame = picture(f, filter, &g);
-        const double difference = relative_l2(&frame.radiance, &sound.radiance);
-        print_message("# %s: %.3f\n", filter, difference);
-        if (!all_finite(&frame.radiance) || !(difference < 0.7))
-            fail_msg("%s: another picture, by %g", filter, difference);
-        lobe_frame_free(&frame);
-    }
+    check_filters(f, &g, &sound, 0.7);
     lobe_frame_free(&sound);
     unset(f, &scene);
     giver_free(&g);
@@ -259,13 +264,7 @@ static void no_example_is_needed(void **state) {
     lobe_frame truth = picture(f, "reference", NULL);
     forget_texels(scene);
     set(f, scene);
-    for (size_t i = 0; i < lobe_filter_count(); i++) {
-        lobe_frame frame = picture(f, lobe_filter_name(lobe_filter_get(i)), &g);
-        const double error = relative_l2(&frame.radiance, &truth.radiance);
-        print_message("# %s: error %.3f\n", lobe_filter_name(lobe_filter_get(i)), error);
-        assert_true(all_finite(&frame.radiance) && error < 0.5);
-        lobe_frame_free(&frame);
-    }
+    check_filters(f, &g, &truth, 0.5);
     lobe_frame_free(&truth);
     unset(f, &scene);
     giver_free(&g);
