@@ -120,8 +120,8 @@ vec3 slid(vec3 start, vec3 own, float grown) {
     return grown < 1.0 ? result : own;
 }
 
-// Where a vertex is, and where all else comes from: weights of the corners of the mesh's triangle,
-// which add up to 1. They move as the position does.
+// The position of a vertex, and the weights of the triangle's corners from which all its other
+// attributes are interpolated; they add up to 1. Both move together.
 struct moving_vertex {
     vec3 position, weights;
 };
