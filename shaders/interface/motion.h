@@ -7,12 +7,12 @@
 struct motion_constants {
     float4x4 world_to_clip; // as in frame_constants: where the picture is drawn
     float4x4 current;       // the same without jitter
-    float4x4 previous;      // of the previous frame, without jitter
+    float4x4 change;        // of the previous frame, without jitter, less `current`
     float4 half_extent;     // x, y: of the picture, pixels
 };
 INTERFACE_SIZE(motion_constants, 208)
 INTERFACE_OFFSET(motion_constants, current, 64)
-INTERFACE_OFFSET(motion_constants, previous, 128)
+INTERFACE_OFFSET(motion_constants, change, 128)
 INTERFACE_OFFSET(motion_constants, half_extent, 192)
 
 // Directions of the picture's pixels in the world (push constants of the background): centre + x

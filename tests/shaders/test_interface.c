@@ -62,7 +62,7 @@ static known_member known[] = {
     MEMBER(motion_background_constants, down, 2),
     MEMBER(motion_constants, world_to_clip, 0),
     MEMBER(motion_constants, current, 1),
-    MEMBER(motion_constants, previous, 2),
+    MEMBER(motion_constants, change, 2),
     MEMBER(motion_constants, half_extent, 3),
     MEMBER(base_triangle, charts, 0),
     MEMBER(base_triangle, edges, 1),

@@ -64,7 +64,9 @@ static lobe_resource upload_constants(const filter_context *context, const motio
         .half_extent = {0.5f * (float)context->view.width, 0.5f * (float)context->view.height}};
     project(context, context->view.camera, true, constants.world_to_clip);
     project(context, context->view.camera, false, constants.current);
-    project(context, start->camera, false, constants.previous);
+    project(context, start->camera, false, constants.change);
+    for (int i = 0; i < 16; i++)
+        constants.change[i] -= constants.current[i];
     return lobe_graph_upload(context->graph, "motion", &constants, sizeof constants);
 }
 

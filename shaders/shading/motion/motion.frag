@@ -7,9 +7,9 @@
 #include "shading/motion/motion.glsl"
 
 layout(location = 0) in vec3 current;
-layout(location = 1) in vec3 previous;
+layout(location = 1) in vec3 change;
 layout(location = 0) out vec2 motion_out;
 
 void main() {
-    motion_out = motion_between(current, previous);
+    motion_out = motion_of(current, change);
 }

@@ -1,8 +1,9 @@
 #ifndef MOTION_GLSL
 #define MOTION_GLSL
 
-// From positions in clip space (x, y, w) in this frame and in the previous one to a motion in
-// pixels, to the right and down: what to add to a position to find the previous one.
+// From a position in clip space (x, y, w), and the previous frame's less that, to a motion in
+// pixels, to the right and down: what to add to a position to find the previous one. The difference
+// and not the previous position, because it is 0 where nothing moved, however a driver rounds.
 
 layout(set = 0, binding = 0, std140) uniform motion_block { motion_constants motion; };
 
@@ -12,11 +13,13 @@ float limited(float pixels) {
     return abs(pixels) <= limit ? pixels : (pixels < 0.0 ? -limit : limit);
 }
 
-vec2 motion_between(vec3 current, vec3 previous) {
+vec2 motion_of(vec3 current, vec3 change) {
+    float previous_w = current.z + change.z;
     // What was behind the eye had no place in the picture.
-    if (previous.z <= 0.0)
+    if (previous_w <= 0.0)
         return vec2(float(MOTION_LIMIT));
-    vec2 pixels = motion.half_extent.xy * (previous.xy / previous.z - current.xy / current.z);
+    vec2 pixels =
+        motion.half_extent.xy * (change.xy - current.xy / current.z * change.z) / previous_w;
     return vec2(limited(pixels.x), limited(pixels.y));
 }
 

@@ -21,9 +21,8 @@ layout(set = 0, binding = 4, std430) readonly buffer previous_instance_block {
 layout(push_constant) uniform draw_block { draw_constants draw; };
 
 invariant gl_Position; // the depths of shading.vert
-// Equal where nothing moved, to the bit.
-precise layout(location = 0) out vec3 current;
-precise layout(location = 1) out vec3 previous;
+layout(location = 0) out vec3 current;
+layout(location = 1) out vec3 change;
 
 instance_constants instance;
 
@@ -39,5 +38,7 @@ void main() {
     v = previous_vertices[gl_VertexIndex];
     instance = previous_instances[draw.first_instance + gl_InstanceIndex];
     vec3 before = transform_point(vec3(v.position[0], v.position[1], v.position[2]));
-    previous = (motion.previous * vec4(before, 1.0)).xyw;
+    // 0 where nothing moved, to the bit: both places come from the same arithmetic.
+    change = (motion.change * vec4(before, 1.0)).xyw +
+             (motion.current * vec4(before - world_position, 0.0)).xyw;
 }

@@ -16,7 +16,7 @@ void main() {
                               clip_position.y * background.down.xyz,
                           0.0);
     vec3 current = (motion.current * direction).xyw;
-    vec3 previous = (motion.previous * direction).xyw;
+    vec3 change = (motion.change * direction).xyw;
     // An orthographic camera has no place for it.
-    motion_out = current.z > 0.0 ? motion_between(current, previous) : vec2(0.0);
+    motion_out = current.z > 0.0 ? motion_of(current, change) : vec2(0.0);
 }

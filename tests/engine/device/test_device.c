@@ -83,7 +83,10 @@ static void devices_are_listed_and_selected(void **state) {
 static void part_of_a_name_in_any_case_selects(void **state) {
     (void)state;
     lobe_device *device = NULL;
-    assert_int_equal(create("LLVMpipe", &device), LOBE_OK);
+    if (create("LLVMpipe", &device) == LOBE_ERROR_NO_DEVICE) {
+        recorder.errors = 0;
+        skip(); // Mesa's software renderer is not installed
+    }
     assert_int_equal(lobe_device_describe(device)->type, LOBE_DEVICE_CPU);
     assert_non_null(strstr(lobe_device_describe(device)->name, "llvmpipe"));
     assert_non_null(strstr(lobe_device_describe(device)->driver, "Mesa"));
@@ -102,12 +105,33 @@ static void index_out_of_range_is_refused(void **state) {
     assert_refused("1000");
 }
 
+/// An environment variable with what it was before (NULL: unset).
+typedef struct variable {
+    const char *name;
+    char *before;
+} variable;
+
+static variable replace(const char *name, const char *value) {
+    const char *before = getenv(name);
+    variable result = {name, before ? strdup(before) : NULL};
+    setenv(name, value, 1);
+    return result;
+}
+
+static void restore(variable *changed) {
+    if (changed->before)
+        setenv(changed->name, changed->before, 1);
+    else
+        unsetenv(changed->name);
+    free(changed->before);
+}
+
 static void without_a_driver_there_is_no_device(void **state) {
     (void)state;
     lobe_device_information *devices = NULL;
     size_t count = 1;
-    setenv("VK_DRIVER_FILES", "/nonexistent", 1);
-    setenv("VK_ICD_FILENAMES", "/nonexistent", 1);
+    variable files = replace("VK_DRIVER_FILES", "/nonexistent");
+    variable names = replace("VK_ICD_FILENAMES", "/nonexistent");
     assert_refused(NULL);
     assert_int_equal(
         lobe_device_list(&(lobe_device_parameters){.host = &recorder.host}, &devices, &count),
@@ -115,19 +139,19 @@ static void without_a_driver_there_is_no_device(void **state) {
     assert_null(devices);
     assert_int_equal(count, 0);
     assert_int_equal(recorder.errors, 2);
-    unsetenv("VK_DRIVER_FILES");
-    unsetenv("VK_ICD_FILENAMES");
+    restore(&files);
+    restore(&names);
 }
 
 static void missing_validation_layer_is_unsupported(void **state) {
     (void)state;
     lobe_device *device = NULL;
-    setenv("VK_LAYER_PATH", "/nonexistent", 1);
+    variable path = replace("VK_LAYER_PATH", "/nonexistent");
     assert_int_equal(
         lobe_device_create(&(lobe_device_parameters){.validation = true, .host = &recorder.host},
                            &device),
         LOBE_ERROR_UNSUPPORTED);
-    unsetenv("VK_LAYER_PATH");
+    restore(&path);
     assert_null(device);
     assert_int_equal(recorder.errors, 1);
     assert_non_null(strstr(recorder.last_error, "VK_LAYER_KHRONOS_validation"));

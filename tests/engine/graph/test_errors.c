@@ -196,6 +196,8 @@ static void retained_twice(void **state) {
 
 static void format_that_cannot_be_stored_to(void **state) {
     graph_fixture *fixture = *state;
+    if (lobe_device_describe(fixture->device)->type != LOBE_DEVICE_CPU)
+        skip(); // some GPUs can store to every format
     lobe_pass *pass = begin_with(fixture, LOBE_PASS_COMPUTE);
     lobe_resource image = graph_fixture_image(fixture, "depth", LOBE_FORMAT_D32_FLOAT, 8, 8);
     image = lobe_pass_write(pass, &(lobe_binding){.name = "target", .resource = image});
@@ -538,7 +540,7 @@ static void too_many_groups(void **state) {
     lobe_resource numbers = graph_fixture_buffer(fixture, "numbers", 256);
     numbers = lobe_pass_write(pass, &(lobe_binding){.name = "target_block", .resource = numbers});
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "graph_count.comp",
-                                              .threads = {UINT32_MAX},
+                                              .threads = {1, UINT32_MAX},
                                               .constants = constants,
                                               .constants_size = sizeof constants});
     lobe_graph_output(fixture->graph, numbers);

@@ -202,7 +202,9 @@ static host_buffer create_buffer(const host_device *host, VkDeviceSize size,
 
 host_buffer host_buffer_create(const host_device *host, VkDeviceSize size,
                                VkBufferUsageFlags usage) {
-    return create_buffer(host, size, usage, 0);
+    return create_buffer(host, size, usage,
+                         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                             VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
 }
 
 void host_buffer_destroy(const host_device *host, host_buffer *buffer) {

@@ -107,7 +107,11 @@ static void lobes_have_the_weight_and_mean_direction_of_light(void **state) {
             double sum[3] = {0}, weights = 0, parts[2], directions[2][2];
             for (int j = 0; j < LOBES; j++) {
                 read_lobe lobe = read_lobe_at(&tables[d], j, column, row);
-                assert_true(lobe.weight >= 0 && lobe.axis[1] >= 0);
+                if (!(lobe.weight >= 0 && lobe.axis[1] >= -1e-9))
+                    fail_msg("distribution %d, column %d, row %d, lobe %d: weight %g, axis %g %g "
+                             "%g",
+                             d, column, row, j, lobe.weight, lobe.axis[0], lobe.axis[1],
+                             lobe.axis[2]);
                 assert_true(j >= REFLECTED_LOBES_IN_PLANE || lobe.axis[1] < 1e-6);
                 weights += lobe.weight;
                 for (int k = 0; k < 3; k++)

@@ -68,7 +68,7 @@ static void check_colours(fixture *f, const char *filter, lobe_format format, bo
             const float *pixel = pixel_at(&frame.radiance, x, y);
             for (int channel = 0; channel < 3; channel++) {
                 double mean = mean_of(&scene->images[0].image, x * side, y * side, side, channel);
-                if (!(fabs((double)pixel[channel] - mean) <= 2e-3))
+                if (!(fabs((double)pixel[channel] - mean) <= 2e-3 + fixture_sampler_error(f)))
                     fail_msg("%s, %ux%u pixels: %g instead of %g", filter, extent, extent,
                              (double)pixel[channel], mean);
             }

@@ -10,7 +10,8 @@
 #include "tests/passes/support/scene_builder.h"
 #include "tests/reference/map/box_reduction.h"
 
-static void check_map(const float *texel, const reduced_map *map, const reference_layers *texels) {
+static void check_map(const float *texel, const reduced_map *map, const reference_layers *texels,
+                      double sampler_error) {
     reference_layers exact = reference_reduce(texels);
     assert_int_equal(map->width, exact.width);
     assert_int_equal(map->height, exact.height);
@@ -19,7 +20,8 @@ static void check_map(const float *texel, const reduced_map *map, const referenc
             const double *expected = reference_texel(&exact, i % exact.width, i / exact.width, 0);
             for (int channel = 0; channel < 4; channel++) {
                 double bound = channel < 3 ? 2e-6 : 1e-5 * fabs(expected[3]);
-                if (!(fabs((double)texel[channel] - expected[channel]) <= bound))
+                double sampled = sampler_error * fmax(1, fabs(expected[channel]));
+                if (!(fabs((double)texel[channel] - expected[channel]) <= bound + sampled))
                     fail_msg("level %u, texel %u, channel %d: %.8g instead of %.8g", level, i,
                              channel, (double)texel[channel], expected[channel]);
             }
@@ -39,7 +41,7 @@ static void check_scene(fixture *f, lobe_scene *scene, const lobe_material *mate
         passes_lobe_map(&run.context, 0, &passes_averaged_parameters, LOBE_FORMAT_RGBA32_FLOAT);
     float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
     reference_layers texels = averaged_parameters_of_texels(scene, material);
-    check_map(found, &map, &texels);
+    check_map(found, &map, &texels, fixture_sampler_error(f));
     free(found);
     reference_layers_free(&texels);
     pass_run_end(&run);

@@ -374,9 +374,11 @@ static void check_mixture(fixture *f, lobe_material material, const char *const 
         mixture_point point = {&material, knobs, &quarter, x, y, &count};
         double expected[3];
         light_point(scene, position, up, shade_mixture_point, &point, expected);
-        check_pixel(&frame, x, y, expected, 1e-3, what);
+        check_pixel(&frame, x, y, expected, 1e-3 + fixture_sampler_error(f), what);
         const float *output = pixel_at(&frame.lobes_level, x, y);
-        if (output[0] != (float)count || fabs((double)output[1] - 2) > 1e-4)
+        // Where a texel of a sampler that rounds is at the limit, one lobe more or less.
+        if (fabs((double)output[0] - count) > (fixture_sampler_error(f) > 0) ||
+            fabs((double)output[1] - 2) > 1e-4)
             fail_msg("%s: %g lobes of level %g instead of %u of 2", what, (double)output[0],
                      (double)output[1], count);
     }
@@ -483,7 +485,7 @@ static void check_averages(fixture *f, lobe_material material, const char *what)
         double expected[3];
         reference_normalise(point.normal);
         light_point(scene, position, up, shade_base, &point, expected);
-        check_pixel(&frame, x, y, expected, 1e-3, what);
+        check_pixel(&frame, x, y, expected, 1e-3 + fixture_sampler_error(f), what);
     }
     reference_layers_free(&texels);
     reference_layers_free(&half);

@@ -53,6 +53,15 @@ int fixture_create_validated(void **state) {
     return create(state, true);
 }
 
+double fixture_sampler_error(const fixture *f) {
+    return lobe_device_describe(f->device)->type == LOBE_DEVICE_CPU ? 0 : 1.0 / 128;
+}
+
+void fixture_need_exact_sampler(const fixture *f) {
+    if (fixture_sampler_error(f) > 0)
+        skip();
+}
+
 void validation_is_silent(void **state) {
     const fixture *f = *state;
     assert_int_equal(lobe_device_validation_count(f->device), 0);

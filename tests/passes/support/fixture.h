@@ -36,6 +36,12 @@ void validation_is_silent(void **state);
 /// A separate device with the fixture's log; asserts success.
 lobe_device *fixture_device(fixture *f, lobe_device_parameters parameters);
 
+/// What samplers may add to the error of values between -1 and 1: GPUs blend texels with weights in
+/// steps of 1/256, along either axis. 0 on CPUs.
+double fixture_sampler_error(const fixture *f);
+/// Skips the test where samplers round: a point at a bin's edge may fall on its other side there.
+void fixture_need_exact_sampler(const fixture *f);
+
 void fixture_forget_messages(fixture *f);
 
 /// Asserts a failure with exactly this code, logged in exactly one line that contains `words`.

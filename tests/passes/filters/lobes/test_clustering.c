@@ -61,9 +61,10 @@ static void check_texel(const float *texel, const double *exact, bool mean, doub
 }
 
 /// Compares level 0 of a mixture map, of half the maps' size, and all that follow.
-static void check_clusters(const clusters *found, const reference_layers *texels,
+static void check_clusters(const fixture *f, const clusters *found, const reference_layers *texels,
                            double tolerance) {
     const mixture_map *mixture = &found->mixture;
+    fixture_need_exact_sampler(f);
     reference_layers exact = reference_reduce(texels);
     const float *texel = found->texels;
     assert_int_equal(mixture->map.width, exact.width);
@@ -96,7 +97,7 @@ static void check_tangent_space(fixture *f, lobe_scene *scene, const request *as
     assert_int_equal(found.mixture.map.layers, layers);
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], NULL, NULL);
     // Texture coordinates have 24 bits, those of a large map's texels fewer.
-    check_clusters(&found, &texels, asked->half_floats ? 1e-3 : 3e-6 + 4e-8 * texels.width);
+    check_clusters(f, &found, &texels, asked->half_floats ? 1e-3 : 3e-6 + 4e-8 * texels.width);
     reference_layers_free(&texels);
     free(found.texels);
 }
@@ -385,7 +386,7 @@ static void object_space_is_tangent_space_turned(void **state) {
     patch p = {.low = {0, 0}, .high = {1, 1}};
     memcpy(p.columns, square_frame, sizeof p.columns);
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], patch_frame, &p);
-    check_clusters(&found, &texels, 3e-6);
+    check_clusters(*state, &found, &texels, 3e-6);
     reference_layers_free(&texels);
     free(found.texels);
     lobe_scene_destroy(&scene);
@@ -418,7 +419,7 @@ static void camera_space_is_tangent_space_turned(void **state) {
             p.columns[i][2] = seen[i][1];
         }
         reference_layers texels = mixture_of_texels(scene, &scene->materials[0], patch_frame, &p);
-        check_clusters(&found, &texels, 4e-6);
+        check_clusters(*state, &found, &texels, 4e-6);
         reference_layers_free(&texels);
         free(found.texels);
         lobe_scene_destroy(&scene);
@@ -448,7 +449,7 @@ static void an_uncovered_atlas_has_no_weight(void **state) {
     scene_end(scene);
     clusters found = cluster(*state, scene, &(request){LOBE_SPACE_OBJECT, 2, true, false, false});
     reference_layers texels = mixture_of_texels(scene, &scene->materials[0], patch_frame, &p);
-    check_clusters(&found, &texels, 3e-6);
+    check_clusters(*state, &found, &texels, 3e-6);
     double covered = 8.0 * 13 / 256;
     const float *last =
         found.texels +

@@ -73,6 +73,7 @@ static float *sum_components(const built_map *built, const mixture_kind *kind, r
 static void check_sums(fixture *f, lobe_scene *scene, const lobe_material *material,
                        const mixture_kind *kind, double tolerance, double rounding) {
     pass_run run;
+    fixture_need_exact_sampler(f);
     built_map built = build_map(f, scene, material, kind, &run);
     reduced_map sums;
     float *texels = sum_components(&built, kind, &sums);

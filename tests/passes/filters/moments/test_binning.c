@@ -32,6 +32,7 @@ typedef void (*map_check)(const float *texels, const moment_map *map, const refe
 /// Destroys the scene afterwards.
 static void with_map(fixture *f, lobe_scene *scene, const lobe_material *material,
                      const map_request *request, map_check check) {
+    fixture_need_exact_sampler(f);
     scene_end_with_square(scene, material);
     pass_run run;
     pass_run_begin(&run, f, scene, "moments", (const char *[]){request->base, NULL});
