@@ -70,6 +70,7 @@ vec3 radiance(int face, vec2 point, float size) {
 }
 
 const int LEAST_SUBSAMPLES = 4;
+const int SUBSAMPLES_PER_ROW = 4; // of the image, at least
 const float MOST_POLAR_SUBSAMPLES = 6.0;
 
 // How many times as narrow as elsewhere the transitions between rows are around a texel. It changes
@@ -91,7 +92,11 @@ int subsample_count(int face, vec2 centre) {
     vec3 direction = cube_direction(face, centre);
     float shrinking = inversesqrt(dot(direction, direction));
     count = max(int(ceil(float(count) * shrinking)), LEAST_SUBSAMPLES);
-    return int(ceil(float(count) * narrowness_of_transitions(length(direction.xz) * shrinking)));
+    // Where the cube is finer than the image, the least number is already more than rows need.
+    float rows = 2.0 / float(constants.size) * INVERSE_PI * float(constants.face_texels);
+    float needed = min(rows * shrinking * float(SUBSAMPLES_PER_ROW) / float(LEAST_SUBSAMPLES), 1.0);
+    float narrowness = narrowness_of_transitions(length(direction.xz) * shrinking);
+    return max(count, int(ceil(float(count) * narrowness * needed)));
 }
 
 // Points of a texel in [0, 1]^2: a grid where the image has an equally fine one, otherwise a

@@ -111,9 +111,10 @@ static double row_solid_angle(uint32_t row, uint32_t width, uint32_t height) {
     return 2 * M_PI / width * (cos(M_PI * row / height) - cos(M_PI * (row + 1) / height));
 }
 
-/// Two texels of 1e5 over surroundings of 1, at each place.
-static void check_suns(fixture *f, const uint32_t (*places)[2], size_t count, double most) {
-    const uint32_t width = 256, height = 128;
+/// Two texels of 1e5 over surroundings of 1, at each place of an image of `height` rows.
+static void check_suns(fixture *f, uint32_t height, uint32_t size, const uint32_t (*places)[2],
+                       size_t count, double most) {
+    const uint32_t width = 2 * height;
     lobe_environment environment = environment_of_colour(LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, width,
                                                          height, (float[3]){1, 1, 1});
     for (size_t i = 0; i < count; i++) {
@@ -121,7 +122,7 @@ static void check_suns(fixture *f, const uint32_t (*places)[2], size_t count, do
         float *sun[2] = {environment_texel(&environment, x, y),
                          environment_texel(&environment, (x + 1) % width, y)};
         sun[0][1] = sun[1][1] = 1e5f;
-        host_cube cube = cube_of(f, &environment, 32);
+        host_cube cube = cube_of(f, &environment, size);
         double energy[3], expected = 2 * (1e5 - 1) * row_solid_angle(y, width, height);
         cube_energy(&cube, 0, energy);
         if (!(fabs((energy[1] - energy[0]) / expected - 1) < most))
@@ -141,8 +142,15 @@ static void a_small_sun_keeps_its_energy(void **state) {
         {200, 2}, {150, 4}, {77, 7},  {222, 127}, {100, 126}, {166, 6}, {50, 119},
     };
     static const uint32_t between[][2] = {{77, 10}, {20, 9}, {20, 10}, {20, 12}};
-    check_suns(*state, places, sizeof places / sizeof *places, 5e-3);
-    check_suns(*state, between, sizeof between / sizeof *between, 1.2e-2);
+    check_suns(*state, 128, 32, places, sizeof places / sizeof *places, 5e-3);
+    check_suns(*state, 128, 32, between, sizeof between / sizeof *between, 1.2e-2);
+}
+
+/// A texel of the cube is a small part of a row.
+static void a_sun_of_a_small_image_keeps_its_energy(void **state) {
+    static const uint32_t places[][2] = {{3, 0}, {15, 1}, {6, 2}, {0, 4}, {9, 6}, {12, 7}};
+    check_suns(*state, 8, 64, places, sizeof places / sizeof *places, 2e-3);
+    check_suns(*state, 2, 64, (const uint32_t[][2]){{0, 0}, {3, 1}}, 2, 2e-3);
 }
 
 /// Texel for texel, after a quarter turn about +Y: +X comes from +Z, -Z from +X and so on.
@@ -181,6 +189,7 @@ int main(void) {
         cmocka_unit_test(faces_of_the_same_size_are_copied),
         cmocka_unit_test(directions_are_those_of_the_image),
         cmocka_unit_test(a_small_sun_keeps_its_energy),
+        cmocka_unit_test(a_sun_of_a_small_image_keeps_its_energy),
         cmocka_unit_test(a_turned_image_gives_a_turned_cube),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
