@@ -7,7 +7,7 @@
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 
-enum { PATCHES = 8, SAMPLES = 16, NUMBERS = 5 };
+enum { PATCHES = 8, SAMPLES = 8, NUMBERS = 5 };
 
 /// The least root mean square, over patches of the maps, of the covariance of colour and normal,
 /// over the mean colour: light that grazes the surface is brighter or darker by that much.
