@@ -31,14 +31,17 @@ instance_constants instance;
 void main() {
     vertex v = vertices[gl_VertexIndex];
     instance = instances[draw.first_instance + gl_InstanceIndex];
-    vec3 world_position = transform_point(vec3(v.position[0], v.position[1], v.position[2]));
+    vec3 position = vec3(v.position[0], v.position[1], v.position[2]);
+    vec3 world_position = transform_point(position);
     gl_Position = motion.world_to_clip * vec4(world_position, 1.0);
     current = (motion.current * vec4(world_position, 1.0)).xyw;
 
+    // Again, as precise as before: their difference is 0 where nothing moved, to the bit. The first
+    // has the rounding of shading.vert.
+    precise vec3 now = transform_point(position);
     v = previous_vertices[gl_VertexIndex];
     instance = previous_instances[draw.first_instance + gl_InstanceIndex];
-    vec3 before = transform_point(vec3(v.position[0], v.position[1], v.position[2]));
-    // 0 where nothing moved, to the bit: both places come from the same arithmetic.
+    precise vec3 before = transform_point(vec3(v.position[0], v.position[1], v.position[2]));
     change = (motion.change * vec4(before, 1.0)).xyw +
-             (motion.current * vec4(before - world_position, 0.0)).xyw;
+             (motion.current * vec4(before - now, 0.0)).xyw;
 }
