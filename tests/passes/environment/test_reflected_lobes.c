@@ -100,14 +100,15 @@ static double density_of(const read_lobe *lobe, const double axis[3], const doub
 }
 
 static void lobes_have_the_weight_and_mean_direction_of_light(void **state) {
-    (void)state;
+    // Square roots of GPUs round otherwise.
+    const double least = fixture_sampler_error(*state) > 0 ? -1e-9 : 0;
     for (int d = 0; d < DISTRIBUTIONS; d++) {
         for (int i = 0; i < 20; i++) {
             const int column = 2 + 13 * (i % 5) / 4, row = (SIZE - 1) * (i / 5) / 3;
             double sum[3] = {0}, weights = 0, parts[2], directions[2][2];
             for (int j = 0; j < LOBES; j++) {
                 read_lobe lobe = read_lobe_at(&tables[d], j, column, row);
-                if (!(lobe.weight >= 0 && lobe.axis[1] >= -1e-9))
+                if (!(lobe.weight >= 0 && lobe.axis[1] >= least))
                     fail_msg("distribution %d, column %d, row %d, lobe %d: weight %g, axis %g %g "
                              "%g",
                              d, column, row, j, lobe.weight, lobe.axis[0], lobe.axis[1],
