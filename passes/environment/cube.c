@@ -4,9 +4,6 @@
 
 #include "shaders/interface/environment/environment.h"
 
-// Minimum number of subsamples along a texel of the image.
-#define SUBSAMPLES_PER_TEXEL 4
-
 /// The centre of each face of the cube, and the directions of its x and y, as Vulkan defines them.
 static const double face_axes[6][3][3] = {
     {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
@@ -48,13 +45,13 @@ static struct environment_cube_constants constants_of(const lobe_environment *en
         constants.face_texels = environment->image.height;
         // A texel in the middle of a face covers 2/size radians, a row of the image pi/height.
         constants.subsamples =
-            (uint32_t)ceil(SUBSAMPLES_PER_TEXEL * 2.0 / size * environment->image.height / M_PI);
+            (uint32_t)ceil(ENVIRONMENT_SUBSAMPLES * 2.0 / size * environment->image.height / M_PI);
     } else if (texels % size == 0) {
         // Every texel of the cube covers whole texels of the image: their mean is exact.
         constants.nearest = 1;
         constants.subsamples = texels / size;
     } else {
-        constants.subsamples = (uint32_t)ceil(SUBSAMPLES_PER_TEXEL * (double)texels / size);
+        constants.subsamples = (uint32_t)ceil(ENVIRONMENT_SUBSAMPLES * (double)texels / size);
     }
     return constants;
 }

@@ -70,7 +70,6 @@ vec3 radiance(int face, vec2 point, float size) {
 }
 
 const int LEAST_SUBSAMPLES = 4;
-const int SUBSAMPLES_PER_ROW = 4; // of the image, at least
 const float MOST_POLAR_SUBSAMPLES = 6.0;
 
 // How many times as narrow as elsewhere the transitions between rows are around a texel. It changes
@@ -94,7 +93,8 @@ int subsample_count(int face, vec2 centre) {
     count = max(int(ceil(float(count) * shrinking)), LEAST_SUBSAMPLES);
     // Where the cube is finer than the image, the least number is already more than rows need.
     float rows = 2.0 / float(constants.size) * INVERSE_PI * float(constants.face_texels);
-    float needed = min(rows * shrinking * float(SUBSAMPLES_PER_ROW) / float(LEAST_SUBSAMPLES), 1.0);
+    float enough = float(ENVIRONMENT_SUBSAMPLES) / float(LEAST_SUBSAMPLES);
+    float needed = min(rows * shrinking * enough, 1.0);
     float narrowness = narrowness_of_transitions(length(direction.xz) * shrinking);
     return max(count, int(ceil(float(count) * narrowness * needed)));
 }

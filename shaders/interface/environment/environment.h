@@ -13,6 +13,9 @@ struct environment_face_place {
 };
 INTERFACE_SIZE(environment_face_place, 32)
 
+// Of a texel of an environment's image, along each axis, at least.
+#define ENVIRONMENT_SUBSAMPLES 4
+
 // environment_cube. Six places of faces follow in a buffer; latitude and longitude need none.
 struct environment_cube_constants {
     uint size;               // texels along a face of the cube
