@@ -91,9 +91,10 @@ int subsample_count(int face, vec2 centre) {
     vec3 direction = cube_direction(face, centre);
     float shrinking = inversesqrt(dot(direction, direction));
     count = max(int(ceil(float(count) * shrinking)), LEAST_SUBSAMPLES);
-    // Where the cube is finer than the image, the least number is already more than rows need.
+    // Where the cube is finer than the image, the least number is more than rows need already. They
+    // get twice what they need, because a sun in the first row may lie within one transition.
     float rows = 2.0 / float(constants.size) * INVERSE_PI * float(constants.face_texels);
-    float enough = float(ENVIRONMENT_SUBSAMPLES) / float(LEAST_SUBSAMPLES);
+    float enough = 2.0 * float(ENVIRONMENT_SUBSAMPLES) / float(LEAST_SUBSAMPLES);
     float needed = min(rows * shrinking * enough, 1.0);
     float narrowness = narrowness_of_transitions(length(direction.xz) * shrinking);
     return max(count, int(ceil(float(count) * narrowness * needed)));
