@@ -18,7 +18,10 @@
 #define MARGIN 2
 
 /// What one storage buffer holds on every device, over the size of a vertex.
-enum { MOST_VERTICES = (1 << 27) / sizeof(lobe_scene_vertex), MOST_TRIANGLES = 1 << 22 };
+enum {
+    MOST_VERTICES = (1 << 27) / sizeof(lobe_scene_vertex) - PATCH_FIRST_VERTEX,
+    MOST_TRIANGLES = 1 << 22
+};
 
 // ---------------------------------------------------------------------------------------------
 // Constants
@@ -88,18 +91,17 @@ static void fill_camera(const filter_context *context, struct displacement_const
     fill_casters(context, constants);
 }
 
-/// Room for a surface that fills the picture: up to eight triangles for each square of the spacing,
-/// and as many again for what is seen at an angle; and some for shadows from outside.
+/// Room for a surface that fills the picture: for each square of the spacing up to eight triangles
+/// and six vertices, as in small patches, and three to four times that for what is seen at an angle
+/// or outside; and some for shadows. One triangle for each patch.
 static void fill_room(const filter_context *context, const displaced_surface *surface,
                       struct displacement_constants *constants) {
     const double pixels = (double)context->view.width * context->view.height;
-    const double wanted = fmin(16 * pixels / (surface->spacing * surface->spacing), MOST_TRIANGLES);
-    const uint32_t least = constants->caster_count > 0 ? 16384 : 4096;
-    const uint32_t patches = surface->layout->patches, usual = least + (uint32_t)wanted;
-    constants->triangle_room = usual > patches ? usual : patches;
-    constants->vertex_room = usual > 3 * patches ? usual : 3 * patches;
-    if (constants->vertex_room > MOST_VERTICES)
-        constants->vertex_room = MOST_VERTICES;
+    const double squares = pixels / (surface->spacing * surface->spacing);
+    const double least = constants->caster_count > 0 ? 16384 : 4096;
+    const double patches = surface->layout->patches;
+    constants->triangle_room = (uint32_t)fmax(least + fmin(40 * squares, MOST_TRIANGLES), patches);
+    constants->vertex_room = (uint32_t)fmin(fmax(least + 24 * squares, 3 * patches), MOST_VERTICES);
 }
 
 static uint32_t wrap_of(lobe_scene_wrap wrap) {
@@ -157,7 +159,7 @@ static struct displacement_constants constants_of(const filter_context *context,
 
 /// The buffers of one instance.
 typedef struct patch_buffers {
-    lobe_resource constants, sizes, sums, offsets, arguments, vertices, triangles;
+    lobe_resource constants, sizes, bins, offsets, arguments, vertices, triangles;
 } patch_buffers;
 
 static lobe_resource declare(const filter_context *context, const char *what, size_t instance,
@@ -175,11 +177,12 @@ static patch_buffers declare_buffers(const filter_context *context, size_t insta
         .constants =
             lobe_graph_upload(context->graph, "displacement", constants, sizeof *constants),
         .sizes = declare(context, "patch sizes", instance, patches * 4 * sizeof(float)),
-        .sums = declare(context, "patch sums", instance, PATCH_SUMS * sizeof(uint32_t)),
+        .bins = declare(context, "patch bins", instance, PATCH_BINS * sizeof(uint32_t)),
         .offsets = declare(context, "patch offsets", instance, patches * 2 * sizeof(uint32_t)),
         .arguments = declare(context, "patch arguments", instance, PATCH_WORDS * sizeof(uint32_t)),
-        .vertices = declare(context, "displaced vertices", instance,
-                            constants->vertex_room * sizeof(lobe_scene_vertex)),
+        .vertices =
+            declare(context, "displaced vertices", instance,
+                    (PATCH_FIRST_VERTEX + constants->vertex_room) * sizeof(lobe_scene_vertex)),
         .triangles = declare(context, "displaced triangles", instance,
                              constants->triangle_room * 3 * sizeof(uint32_t)),
     };
@@ -215,15 +218,15 @@ static void read_heights(const filter_context *context, const displaced_surface 
 static void measure_patches(const filter_context *context, const displaced_surface *surface,
                             uint32_t row, patch_buffers *buffers) {
     lobe_pass *clear = lobe_graph_add_pass(context->graph, LOBE_PASS_TRANSFER, "clear");
-    buffers->sums = lobe_pass_fill(clear, buffers->sums, (lobe_range){0}, (float[4]){0});
+    buffers->bins = lobe_pass_fill(clear, buffers->bins, (lobe_range){0}, (float[4]){0});
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_sizes");
     read_mesh(context, surface, buffers, pass);
     read_heights(context, surface, pass);
     read(pass, "bounds_block", surface->bounds.buffer);
     buffers->sizes =
         lobe_pass_write(pass, &(lobe_binding){.name = "patch_block", .resource = buffers->sizes});
-    buffers->sums =
-        lobe_pass_modify(pass, &(lobe_binding){.name = "sum_block", .resource = buffers->sums});
+    buffers->bins =
+        lobe_pass_modify(pass, &(lobe_binding){.name = "bin_block", .resource = buffers->bins});
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){.shader = "displacement/patch_sizes.comp",
                                .threads = {row, (surface->layout->patches - 1) / row + 1}});
@@ -233,7 +236,7 @@ static void place_patches(const filter_context *context, patch_buffers *buffers)
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_offsets");
     read(pass, "displacement_block", buffers->constants);
     read(pass, "patch_block", buffers->sizes);
-    read(pass, "sum_block", buffers->sums);
+    read(pass, "bin_block", buffers->bins);
     buffers->offsets = lobe_pass_write(
         pass, &(lobe_binding){.name = "offset_block", .resource = buffers->offsets});
     buffers->arguments = lobe_pass_write(

@@ -15,9 +15,10 @@ void main() {
         return;
     uint found = patch_with(number, 1);
     int segments = segments_of(sizes_of_patch(found).w);
+    uint first = PATCH_FIRST_VERTEX + offsets[found].x;
     ivec3 corners[3];
     lattice_triangle(segments, number - offsets[found].y, corners);
     for (int i = 0; i < 3; ++i)
         indices[3u * number + uint(i)] =
-            offsets[found].x + lattice_number(segments - corners[i].x, corners[i].z);
+            first + lattice_number(segments - corners[i].x, corners[i].z);
 }

@@ -22,11 +22,14 @@ layout(set = 0, binding = 15, std430) writeonly buffer displaced_block { vertex 
 // ---------------------------------------------------------------------------------------------
 // Positions
 
+// Between vertices, over what was asked for.
+float spacing_factor() {
+    return exp2(min(chosen_spacing(), float(PATCH_WIDEST)));
+}
+
 // Metres between vertices.
 float vertex_distance(base_site site) {
-    uint chosen = arguments[PATCH_SPACING];
-    float spacing = constants.spacing * exp2(0.5 * float(chosen));
-    return spacing / pixels_per_metre_at(site);
+    return constants.spacing * spacing_factor() / pixels_per_metre_at(site);
 }
 
 vec3 displaced_place(base_place place) {
@@ -202,6 +205,8 @@ void main() {
     uint number = thread_number();
     if (number >= arguments[PATCH_TOTALS])
         return;
+    if (number == 0u)
+        displaced[0].position[0] = spacing_factor();
     uint found = patch_with(number, 0);
     vec4 sizes = sizes_of_patch(found);
     patch_grid grid = patch_grid(patch_of(found), sizes, segments_of(sizes.w));
@@ -211,5 +216,5 @@ void main() {
     vertex result = base_vertex(grid.parts.triangle, moving.weights);
     for (int i = 0; i < 3; ++i)
         result.position[i] = moving.position[i];
-    displaced[number] = result;
+    displaced[number + PATCH_FIRST_VERTEX] = result;
 }

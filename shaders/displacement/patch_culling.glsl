@@ -71,7 +71,7 @@ float widest_spacing(vec3 centre, float radius) {
     float pixels = constants.pixels;
     if (constants.perspective != 0.0)
         pixels /= view_distance(centre) + radius + farthest_reach();
-    return constants.spacing * exp2(0.5 * float(PATCH_SPACINGS)) / pixels;
+    return constants.spacing * exp2(float(PATCH_WIDEST)) / pixels;
 }
 
 struct patch_coordinates {

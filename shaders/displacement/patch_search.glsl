@@ -28,8 +28,14 @@ uint patch_with(uint number, int kind) {
     return first;
 }
 
+// Log2 of the distance of vertices, over that which was asked for.
+float chosen_spacing() {
+    return uintBitsToFloat(arguments[PATCH_SPACING]);
+}
+
+// Of the edges, and the largest of them.
 vec4 sizes_of_patch(uint number) {
-    return chosen_sizes(patches[number], arguments[PATCH_SPACING]);
+    return patches[number] - chosen_spacing();
 }
 
 #endif

@@ -1,20 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The sizes of the edges of each patch, and how many vertices and triangles all patches take for
-// several distances of vertices. An edge's size is the log2 of its length over that distance, in
-// pixels as seen at the nearest point of the sphere around it: the same for both of its patches,
-// and whichever way the camera looks. Vertices are not closer than texels. Patches have none unless
-// they or their shadows may be in the picture (patch_culling.glsl).
+// The sizes of the edges of each patch, and how many patches have which size. An edge's size is the
+// log2 of its length over the distance of vertices, in pixels as seen at the nearest point of the
+// sphere around it: the same for both of its patches, and whichever way the camera looks. Vertices
+// are not closer than texels. Patches have none unless they or their shadows may be in the picture
+// (patch_culling.glsl).
 
 #include "displacement/patch_culling.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 11, std430) writeonly buffer patch_block { vec4 patches[]; };
-layout(set = 0, binding = 12, std430) buffer sum_block { uint sums[]; };
+layout(set = 0, binding = 12, std430) buffer bin_block { uint bins[]; };
 
-shared uint group_sums[PATCH_SUMS];
+shared uint group_bins[PATCH_BINS];
 
 float pixel_size(base_site middle, float size) {
     float pixels = constants.pixels;
@@ -61,7 +61,7 @@ float edge_size(base_patch parts, vec3 corners[3]) {
     float size = min(pixel_size(middle, length_of_edge), log2(patch_texels(parts)));
     if (constants.caster_count > 0u && !is_edge_in_picture(middle, length_of_edge))
         size -= float(PATCH_UNSEEN);
-    return clamp(size, 0.0, float(PATCH_MOST));
+    return clamp(size, -1.0, float(PATCH_MOST)); // from -1 to 0 it is one segment
 }
 
 // The edges take turns as the first, so that the code for an edge exists once: drivers take seconds
@@ -93,22 +93,30 @@ vec4 patch_sizes(uint number) {
     return vec4(sizes, max(max(sizes.x, sizes.y), sizes.z));
 }
 
+// Counts a patch in the two bins above its largest edge's size: half-way between bins in both, so
+// that nothing jumps when sizes change.
+void count_patch(float largest) {
+    float place = (largest + 1.0) * float(PATCH_STEPS);
+    uint bin = min(uint(ceil(place)), PATCH_BINS - 2u); // whatever a driver makes of no number
+    uint units = uint(round((float(bin) - place) * float(PATCH_BIN_UNITS)));
+    atomicAdd(group_bins[bin], units);
+    atomicAdd(group_bins[bin + 1u], PATCH_BIN_UNITS - units);
+}
+
 void main() {
     uint number = gl_GlobalInvocationID.y * constants.row + gl_GlobalInvocationID.x;
     bool exists = gl_GlobalInvocationID.x < constants.row && number < constants.patch_count;
-    if (gl_LocalInvocationIndex < PATCH_SUMS)
-        group_sums[gl_LocalInvocationIndex] = 0u;
+    for (uint i = gl_LocalInvocationIndex; i < PATCH_BINS; i += 64u)
+        group_bins[i] = 0u;
     barrier();
     if (exists) {
         vec4 sizes = patch_sizes(number);
         patches[number] = sizes;
-        for (uint i = 0u; i < PATCH_SPACINGS; ++i) {
-            uvec2 counts = patch_counts(sizes.w, i);
-            atomicAdd(group_sums[i], counts.x);
-            atomicAdd(group_sums[PATCH_SPACINGS + i], counts.y);
-        }
+        if (sizes.w != PATCH_CULLED)
+            count_patch(sizes.w);
     }
     barrier();
-    if (gl_LocalInvocationIndex < PATCH_SUMS)
-        atomicAdd(sums[gl_LocalInvocationIndex], group_sums[gl_LocalInvocationIndex]);
+    for (uint i = gl_LocalInvocationIndex; i < PATCH_BINS; i += 64u)
+        if (group_bins[i] != 0u)
+            atomicAdd(bins[i], group_bins[i]);
 }

@@ -77,16 +77,10 @@ uvec2 counts_of(int segments) {
 // Where a patch is not seen.
 const float PATCH_CULLED = -1e30;
 
-// Vertices and triangles of a patch whose longest edge has this size.
-uvec2 patch_counts(float largest, uint spacing) {
-    if (largest == PATCH_CULLED)
-        return uvec2(0u);
-    return counts_of(spacing < PATCH_SPACINGS ? segments_of(largest - 0.5 * float(spacing)) : 1);
-}
-
-// The sizes of a patch's edges, and the largest of them, with the spacing that was chosen.
-vec4 chosen_sizes(vec4 sizes, uint spacing) {
-    return spacing < PATCH_SPACINGS ? sizes - 0.5 * float(spacing) : vec4(0.0);
+// Vertices and triangles of a patch whose longest edge has this size, with vertices 2^spacing times
+// as far apart.
+uvec2 patch_counts(float largest, float spacing) {
+    return largest == PATCH_CULLED ? uvec2(0u) : counts_of(segments_of(largest - spacing));
 }
 
 #endif

@@ -15,7 +15,7 @@ struct frame_constants {
     float footprint;      // side of the square that a sample stands for, pixels
     float dither;         // [0, 1): added to the thresholds of masks, another one for each sample
     uint first_light;     // of this pass
-    float vertex_spacing; // of displaced geometry, pixels
+    float vertex_spacing; // asked for, of displaced geometry, pixels
     uint seed;            // of random numbers, another one for each sample
 };
 INTERFACE_SIZE(frame_constants, 192)

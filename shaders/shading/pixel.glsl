@@ -26,6 +26,7 @@ layout(location = 2) in vec4 interpolated_tangent;
 layout(location = 3) in vec4 interpolated_coordinates;
 layout(location = 4) in vec4 interpolated_colour;
 layout(location = 5) in float interpolated_map_width;
+layout(location = 6) flat in float drawn_spacing;
 
 bool front_side() {
     return gl_FrontFacing != MIRRORED;
@@ -82,7 +83,7 @@ surface_point read_surface() {
     surface.vertex_spacing = 0.0;
     if (DISPLACED) {
         surface.drawn_slope = triangle_slope(surface);
-        surface.vertex_spacing = frame.vertex_spacing / frame.footprint;
+        surface.vertex_spacing = drawn_spacing / frame.footprint;
     }
     surface.stretch = mat2(1.0);
     if (STRETCHED)

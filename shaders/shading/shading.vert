@@ -22,7 +22,10 @@ layout(location = 3) out vec4 coordinates;
 layout(location = 4) out vec4 colour;
 layout(location = 5) out float map_width; // of the height map, metres; 0 unless STRETCHED
 
+layout(location = 6) flat out float vertex_spacing; // pixels; 0 unless DISPLACED
+
 layout(constant_id = SPECIALISE_STRETCHED) const bool STRETCHED = false;
+layout(constant_id = SPECIALISE_DISPLACED) const bool DISPLACED = false;
 
 invariant gl_Position; // motion/motion.vert computes the same depths
 
@@ -41,5 +44,6 @@ void main() {
     colour = vec4(v.colour[0], v.colour[1], v.colour[2], v.colour[3]);
     map_width = STRETCHED ? draw.map_width * thickness(vec3(v.normal[0], v.normal[1], v.normal[2]))
                           : 0.0;
+    vertex_spacing = DISPLACED ? frame.vertex_spacing * vertices[0].position[0] : 0.0;
     gl_Position = frame.world_to_clip * vec4(world_position, 1.0);
 }

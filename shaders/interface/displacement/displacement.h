@@ -10,8 +10,14 @@
 
 // An edge of a patch has at most 2^PATCH_MOST segments.
 #define PATCH_MOST 6
-// Vertices are counted for distances of k 2^(j/2) pixels, j below this.
-#define PATCH_SPACINGS 8
+// Patches are counted by the sizes of their largest edges, in bins of 1/PATCH_STEPS: bin i ends at
+// i/PATCH_STEPS - 1. One patch counts PATCH_BIN_UNITS: integers, whose sum is the same in any
+// order.
+#define PATCH_STEPS     16
+#define PATCH_BINS      ((PATCH_MOST + 1) * PATCH_STEPS + 2)
+#define PATCH_BIN_UNITS 1024u
+// Heights are means over squares as wide as vertices are apart, up to k 2^this pixels.
+#define PATCH_WIDEST 4
 // Lights whose shadows decide what is not culled.
 #define PATCH_CASTERS 4
 // What the picture does not show, but whose shadow may fall into it, has vertices 2^this times as
@@ -179,11 +185,12 @@ INTERFACE_OFFSET(displacement_constants, bounds_levels, 336)
 #define PATCH_DRAW      0  // lobe_draw_arguments
 #define PATCH_VERTICES  5  // lobe_dispatch_arguments: a thread for each vertex
 #define PATCH_TRIANGLES 8  // lobe_dispatch_arguments: a thread for each triangle
-#define PATCH_SPACING   11 // which of PATCH_SPACINGS; that number: all patches are one triangle
+#define PATCH_SPACING   11 // float: log2 of the distance of vertices over k pixels
 #define PATCH_TOTALS    12 // vertices, triangles
 #define PATCH_WORDS     14
 
-// The sums for all spacings (storage buffer of uint): vertices, then triangles.
-#define PATCH_SUMS (2 * PATCH_SPACINGS)
+// The first vertex of a displaced surface is none: position[0] is the distance of vertices over k
+// pixels.
+#define PATCH_FIRST_VERTEX 1
 
 #endif

@@ -133,8 +133,12 @@ drawn_geometry displaced_geometry_of(fixture *f, const lobe_scene *scene, uint32
     g.vertex_count = g.words[PATCH_TOTALS];
     g.triangle_count = g.words[PATCH_TOTALS + 1];
     assert_int_equal(g.words[PATCH_DRAW], 3 * g.triangle_count);
-    g.vertices = copy(f->graph, displaced.vertices, g.vertex_count * sizeof *g.vertices);
+    const size_t size = g.vertex_count * sizeof *g.vertices, first = PATCH_FIRST_VERTEX;
+    g.vertices = copy(f->graph, displaced.vertices, first * sizeof *g.vertices + size);
+    memmove(g.vertices, g.vertices + first, size);
     g.indices = copy(f->graph, displaced.indices, g.triangle_count * 3 * sizeof *g.indices);
+    for (uint32_t i = 0; i < 3 * g.triangle_count; i++)
+        g.indices[i] -= PATCH_FIRST_VERTEX;
     lobe_graph_begin(f->graph);
     passes_displacement_destroy(&state);
     pass_run_end(&run);

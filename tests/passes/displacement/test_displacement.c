@@ -65,7 +65,7 @@ static void check_heights(fixture *f, double seen, const char *spacing, double p
     lobe_scene *scene = plane_with_heights(QUADS, 2, random_heights(MAP, MAP), scale, seen);
     drawn_geometry g = displaced_geometry_of(f, scene, EXTENT, spacing);
     const uint32_t of_patch = (segments + 1) * (segments + 2) / 2;
-    assert_int_equal(g.words[PATCH_SPACING], 0);
+    assert_int_equal(g.words[PATCH_SPACING], 0); // as close as asked for
     assert_true(g.vertex_count > 0);
     assert_int_equal(g.vertex_count % of_patch, 0);
     assert_int_equal(g.triangle_count / (segments * segments), g.vertex_count / of_patch);
@@ -416,22 +416,52 @@ static void everything_draws_it(void **state) {
 // Limits and bad input
 
 /// Close to a plane, many more vertices are asked for than there is room for.
-static void geometry_has_a_limit(void **state) {
-    fixture *f = *state;
+static lobe_scene *close_plane(float height) {
     lobe_scene *scene = plane_with_heights(60, 4, random_heights(64, 64), 0.01f, 1);
-    scene->camera = (lobe_camera){.eye = {0, 0.05f, 0},
+    scene->camera = (lobe_camera){.eye = {0, height, 0},
                                   .target = {1, 0.04f, 0},
                                   .up = {0, 1, 0},
                                   .vertical_field_of_view = 1,
                                   .near_plane = 0.001f};
+    return scene;
+}
+
+/// Log2 of the distance of vertices over that which was asked for.
+static double chosen_spacing(const drawn_geometry *g) {
+    float spacing;
+    memcpy(&spacing, &g->words[PATCH_SPACING], sizeof spacing);
+    return (double)spacing;
+}
+
+static void geometry_has_a_limit(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = close_plane(0.05f);
     drawn_geometry g = displaced_geometry_of(f, scene, 64, "pixels_per_vertex=1");
-    assert_true(g.words[PATCH_SPACING] > 0);
-    assert_true(g.vertex_count > 1000 && g.vertex_count <= 16 * 64 * 64 + 4096);
-    assert_true(g.triangle_count <= 16 * 64 * 64 + 4096);
+    assert_true(chosen_spacing(&g) > 0);
+    assert_true(g.vertex_count > 1000 && g.vertex_count <= 24 * 64 * 64 + 4096);
+    assert_true(g.triangle_count <= 40 * 64 * 64 + 4096);
     for (uint32_t i = 0; i < 3 * g.triangle_count; i++)
         assert_true(g.indices[i] < g.vertex_count);
     drawn_geometry_free(&g);
     lobe_scene_destroy(&scene);
+}
+
+/// Nor does the distance of vertices jump where there is no room, while the camera climbs.
+static void the_limit_does_not_jump(void **state) {
+    enum { STEPS = 15 };
+    fixture *f = *state;
+    double last = NAN;
+    for (int i = 0; i <= STEPS; i++) {
+        lobe_scene *scene = close_plane(0.5f * (float)exp2(0.04 * i));
+        drawn_geometry g = displaced_geometry_of(f, scene, 64, "pixels_per_vertex=1");
+        const double found = chosen_spacing(&g);
+        assert_true(found > 0);
+        if (fabs(found - last) > 0.2)
+            fail_msg("after %d steps: 2^%g after 2^%g", i, found, last);
+        last = found;
+        drawn_geometry_free(&g);
+        lobe_scene_destroy(&scene);
+    }
 }
 
 static lobe_result try_drawing(fixture *f, const lobe_scene *scene) {
@@ -525,6 +555,7 @@ int main(void) {
         cmocka_unit_test(transforms_displace_outwards),
         cmocka_unit_test(everything_draws_it),
         cmocka_unit_test(geometry_has_a_limit),
+        cmocka_unit_test(the_limit_does_not_jump),
         cmocka_unit_test(heights_are_numbers),
         cmocka_unit_test(what_cannot_be_displaced_is_drawn),
         cmocka_unit_test(odd_maps_and_triangles_are_drawn),
