@@ -43,7 +43,8 @@ enum {
 
 typedef struct footprint_set {
     footprint all[FOOTPRINTS];
-    double units[FOOTPRINTS]; ///< that squared errors are divided by
+    /// That squared errors are divided by.
+    double units[FOOTPRINT_LIGHTS][FOOTPRINTS];
     plane_sample lobes[];
 } footprint_set;
 
@@ -58,16 +59,24 @@ static void read_patch(const lobe_scene *scene, const device_material *material,
     }
 }
 
+static uint32_t count_lights(const lobe_survey *survey) {
+    for (uint32_t i = 0; i < survey->count; i++)
+        if (passes_footprint_is_sharp(survey->samples[i].variance))
+            return FOOTPRINT_LIGHTS;
+    return 1;
+}
+
 /// Errors are relative to each footprint, but for those that are all but black.
-static void find_units(footprint_set *set) {
+static void find_units(const footprint_set *set, uint32_t light, double units[FOOTPRINTS]) {
     double colours[FOOTPRINTS], mean = 0;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
-        colours[i] = sqrt(set->all[i].square / fmax(set->all[i].whites, 1e-30));
+        const footprint_light *lit = &set->all[i].lights[light];
+        colours[i] = sqrt(lit->square / fmax(lit->whites, 1e-30));
         mean += colours[i] / FOOTPRINTS;
     }
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
         const double colour = fmax(colours[i], least_colour * mean);
-        set->units[i] = fmax(set->all[i].whites * colour * colour, 1e-30);
+        units[i] = fmax(set->all[i].lights[light].whites * colour * colour, 1e-30);
     }
 }
 
@@ -83,6 +92,7 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
         footprint *patch = &set->all[i];
         patch->lobes = set->lobes + (size_t)i * LOBES;
         patch->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
+        patch->light_count = count_lights(survey);
         if (i < MATERIAL_PATCHES) {
             read_patch(scene, material, i, patch);
         } else {
@@ -91,33 +101,48 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
         }
         passes_footprint_complete(patch, microfacet);
     }
-    if (set)
-        find_units(set);
+    for (uint32_t i = 0; set && i < FOOTPRINT_LIGHTS; i++)
+        find_units(set, i, set->units[i]);
     return set;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Candidates
 
-/// A mixture whose bins have the footprint's colour or their own, and the root of its mean squared
-/// error over all footprints, each relative L2: a pixel's error counts as much where it is dark.
-/// (If errors were summed before that, those of polished patches, where all lobes are sharp and no
-/// candidate is good, would outweigh all others.)
+/// A mixture whose bins have the footprint's colour or their own, and for each light the root of
+/// its mean squared error over all footprints, each relative L2: a pixel's error counts as much
+/// where it is dark. (If errors were summed before that, those of polished patches, where all lobes
+/// are sharp and no candidate is good, would outweigh all others.)
 typedef struct candidate {
     bin_choice choice;
-    double error;
+    double errors[FOOTPRINT_LIGHTS];
 } candidate;
 
-static void compare(const footprint_set *set, const plane_mixture *m, double errors[2]) {
-    double squares[2] = {0}, diffuse = 0;
+static double error_of(const candidate *c) {
+    double sum = 0;
+    for (uint32_t i = 0; i < FOOTPRINT_LIGHTS; i++)
+        sum += c->errors[i];
+    return sum;
+}
+
+/// Of bins with the footprint's colour and with their own.
+static void compare(const footprint_set *set, const plane_mixture *m,
+                    double errors[2][FOOTPRINT_LIGHTS]) {
+    double squares[2][FOOTPRINT_LIGHTS] = {0}, diffuse = 0;
+    const uint32_t lights = set->all[0].light_count;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
-        const footprint_error error = passes_footprint_compare(&set->all[i], m);
-        squares[0] += error.mean_colour / set->units[i] / FOOTPRINTS;
-        squares[1] += error.bin_colours / set->units[i] / FOOTPRINTS;
+        footprint_error error[FOOTPRINT_LIGHTS];
+        passes_footprint_compare(&set->all[i], m, error);
+        for (uint32_t k = 0; k < lights; k++) {
+            squares[0][k] += error[k].mean_colour / set->units[k][i] / FOOTPRINTS;
+            squares[1][k] += error[k].bin_colours / set->units[k][i] / FOOTPRINTS;
+        }
         diffuse += set->all[i].diffuse_error / FOOTPRINTS;
     }
-    errors[0] = sqrt(squares[0]) + diffuse_weight * diffuse;
-    errors[1] = sqrt(squares[1]);
+    for (uint32_t k = 0; k < FOOTPRINT_LIGHTS; k++) {
+        errors[0][k] = sqrt(squares[0][k]) + diffuse_weight * diffuse;
+        errors[1][k] = sqrt(squares[1][k]);
+    }
 }
 
 /// Whether an earlier start led to about the same likelihood, and so to the same mixture.
@@ -132,20 +157,22 @@ static bool is_known(const double *likelihoods, uint32_t start) {
 static void fit_best(const footprint_set *set, const lobe_survey *survey, uint32_t bins,
                      candidate best[2]) {
     double likelihoods[MIXTURE_STARTS];
-    best[0].error = best[1].error = INFINITY;
     for (uint32_t i = 0; i < (bins > 1 ? POINT_NUMBERS * MIXTURE_STARTS : 1); i++) {
         const uint32_t start = i % MIXTURE_STARTS;
         plane_mixture trial;
-        double errors[2];
+        double errors[2][FOOTPRINT_LIGHTS];
         passes_mixture_fit(survey->samples, survey->count, bins, points[i / MIXTURE_STARTS], start,
                            &trial);
         likelihoods[start] = trial.likelihood;
         if (is_known(likelihoods, start))
             continue;
         compare(set, &trial, errors);
-        for (int own = 0; own < 2; own++)
-            if (i == 0 || errors[own] < best[own].error)
-                best[own] = (candidate){{trial, own}, errors[own]};
+        for (int own = 0; own < 2; own++) {
+            candidate found = {.choice = {trial, own}};
+            memcpy(found.errors, errors[own], sizeof found.errors);
+            if (i == 0 || error_of(&found) < error_of(&best[own]))
+                best[own] = found;
+        }
     }
 }
 
@@ -157,19 +184,31 @@ static uint32_t cost_of(const device_material *material, const bin_choice *choic
            (material->maps[MAP_SPECULAR].use != NULL) + material->metallic_varies;
 }
 
-/// The cheapest of those that are good enough.
+/// The largest error above the least ones, for all lights, in units of what is good enough.
+static double excess_of(const candidate *c, const double least[FOOTPRINT_LIGHTS]) {
+    double largest = 0;
+    for (uint32_t i = 0; i < FOOTPRINT_LIGHTS; i++)
+        largest =
+            fmax(largest, (c->errors[i] - least[i]) / fmax((tolerance - 1) * least[i], negligible));
+    return largest;
+}
+
+/// The cheapest of those that are good enough; if none is for all lights, that which lacks least.
 static void choose_from(const device_material *material, const candidate *candidates,
                         uint32_t count, bin_choice *choice) {
-    double least = INFINITY;
+    double least[FOOTPRINT_LIGHTS] = {INFINITY, INFINITY}, lowest_excess = INFINITY;
     for (uint32_t i = 0; i < count; i++)
-        least = fmin(least, candidates[i].error);
+        for (uint32_t k = 0; k < FOOTPRINT_LIGHTS; k++)
+            least[k] = fmin(least[k], candidates[i].errors[k]);
+    for (uint32_t i = 0; i < count; i++)
+        lowest_excess = fmin(lowest_excess, excess_of(&candidates[i], least));
     const candidate *chosen = NULL;
     uint32_t lowest = UINT32_MAX;
     for (uint32_t i = 0; i < count; i++) {
         const candidate *c = &candidates[i];
         const uint32_t cost = cost_of(material, &c->choice);
-        if (c->error > fmax(tolerance * least, least + negligible) || cost > lowest ||
-            (cost == lowest && c->error >= chosen->error))
+        if (!(excess_of(c, least) <= fmax(lowest_excess, 1)) || cost > lowest ||
+            (cost == lowest && error_of(c) >= error_of(chosen)))
             continue;
         chosen = c;
         lowest = cost;

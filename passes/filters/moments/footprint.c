@@ -4,6 +4,9 @@
 
 #include "passes/upload/colours/material_colours.h"
 
+/// Variance of half vectors under the broad light: what it shows is 0.1 radians wide.
+static const double broad_light = 0.01;
+
 /// A Gaussian: peak exp(-1/2 d^T inverse d).
 typedef struct bell {
     double place[2], peak, inverse[3];
@@ -18,19 +21,21 @@ static double evaluate(const bell *b, const double place[2]) {
 // ---------------------------------------------------------------------------------------------
 // The truth
 
-static bell bell_of_lobe(const plane_sample *lobe) {
+static bell bell_of_lobe(const plane_sample *lobe, double light) {
+    const double variance = lobe->variance + light;
     double covariance[3];
     bell result = {.place = {lobe->place[0], lobe->place[1]},
-                   .peak = lobe->weight * lobe->mass / (2 * M_PI * lobe->variance)};
+                   .peak = lobe->weight * lobe->mass / (2 * M_PI * variance)};
     passes_plane_distortion(lobe->place, covariance, result.inverse);
     for (int i = 0; i < 3; i++)
-        result.inverse[i] /= lobe->variance;
+        result.inverse[i] /= variance;
     return result;
 }
 
 /// A place at random from a lobe.
-static void draw_from_lobe(const plane_sample *lobe, const double numbers[2], double place[2]) {
-    double radius = sqrt(-2 * lobe->variance * log(1 - 0.9999 * numbers[0]));
+static void draw_from_lobe(const plane_sample *lobe, double light, const double numbers[2],
+                           double place[2]) {
+    double radius = sqrt(-2 * (lobe->variance + light) * log(1 - 0.9999 * numbers[0]));
     double angle = 2 * M_PI * numbers[1], covariance[3], inverse[3];
     passes_plane_distortion(lobe->place, covariance, inverse);
     // Any root of the covariance will do: Cholesky's.
@@ -42,7 +47,7 @@ static void draw_from_lobe(const plane_sample *lobe, const double numbers[2], do
 }
 
 /// Lobes are chosen by their mass, in equal steps through all of them.
-static void draw_places(footprint *patch) {
+static void draw_places(const footprint *patch, footprint_light *light) {
     double total = 0, sum = 0;
     for (uint32_t i = 0; i < patch->count; i++)
         total += patch->lobes[i].weight * patch->lobes[i].mass;
@@ -57,7 +62,7 @@ static void draw_places(footprint *patch) {
         // Evenly spread (Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences).
         const double numbers[2] = {fmod(0.5 + 0.7548776662466927 * i, 1),
                                    fmod(0.5 + 0.5698402909980532 * i, 1)};
-        draw_from_lobe(&patch->lobes[lobe], numbers, patch->places[i]);
+        draw_from_lobe(&patch->lobes[lobe], light->variance, numbers, light->places[i]);
     }
 }
 
@@ -70,27 +75,27 @@ static double weight_of(const double place[2]) {
 }
 
 /// What an integral over half vectors counts a place as.
-static double part_of(const footprint *patch, uint32_t place) {
-    return weight_of(patch->places[place]) / fmax(patch->densities[place], 1e-30);
+static double part_of(const footprint_light *light, uint32_t place) {
+    return weight_of(light->places[place]) / fmax(light->densities[place], 1e-30);
 }
 
-static void find_truth(footprint *patch) {
+static void find_truth(const footprint *patch, footprint_light *light) {
     for (uint32_t k = 0; k < patch->count; k++) {
         const plane_sample *lobe = &patch->lobes[k];
-        const bell shape = bell_of_lobe(lobe);
+        const bell shape = bell_of_lobe(lobe, light->variance);
         for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
-            double value = evaluate(&shape, patch->places[i]);
-            patch->densities[i] += value;
+            double value = evaluate(&shape, light->places[i]);
+            light->densities[i] += value;
             for (int j = 0; j < 3; j++)
-                patch->truth[i][j] += value * lobe->specular[j];
+                light->truth[i][j] += value * lobe->specular[j];
         }
     }
-    patch->square = patch->whites = 0;
+    light->square = light->whites = 0;
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
-        const double *truth = patch->truth[i], white = patch->densities[i];
-        patch->square +=
-            part_of(patch, i) * (truth[0] * truth[0] + truth[1] * truth[1] + truth[2] * truth[2]);
-        patch->whites += part_of(patch, i) * 3 * white * white;
+        const double *truth = light->truth[i], white = light->densities[i];
+        light->square +=
+            part_of(light, i) * (truth[0] * truth[0] + truth[1] * truth[1] + truth[2] * truth[2]);
+        light->whites += part_of(light, i) * 3 * white * white;
     }
 }
 
@@ -127,14 +132,21 @@ static void average_colours(footprint *patch, bool microfacet) {
     patch->diffuse_error = all > 0 ? error / all : 0;
 }
 
+bool passes_footprint_is_sharp(double variance) {
+    return variance < broad_light;
+}
+
 void passes_footprint_complete(footprint *patch, bool microfacet) {
     double total = 0;
     for (uint32_t k = 0; k < patch->count; k++)
         total += patch->lobes[k].weight;
     for (uint32_t k = 0; k < patch->count; k++)
         patch->lobes[k].weight /= total;
-    draw_places(patch);
-    find_truth(patch);
+    for (uint32_t i = 0; i < patch->light_count; i++) {
+        patch->lights[i].variance = i * broad_light;
+        draw_places(patch, &patch->lights[i]);
+        find_truth(patch, &patch->lights[i]);
+    }
     average_colours(patch, microfacet);
 }
 
@@ -176,23 +188,23 @@ static bell bell_of_bin(const bin_sums *sums, double base) {
 
 /// Two Gaussians with the mean sharpness and the mean variance of the base lobes; or of log-normal
 /// deviations with these.
-static footprint_bin make_bin(const bin_sums *sums, bool log_normal) {
+static footprint_bin make_bin(const bin_sums *sums, bool log_normal, double light) {
     const double weight = sums->places.weight, sharpness = sums->sharpness / weight;
     const double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
     const double square = 0.25 + 0.25 * sqrt(1 + 8 * ratio);
     const double median = (log_normal ? cbrt(ratio) : square) / (sharpness * sharpness);
     const double varies = log_normal ? sqrt(fmin(log(ratio) / 3, 0.64)) : acosh(sqrt(square));
     const double factor = exp(2 * varies);
-    footprint_bin bin = {
-        .terms = {bell_of_bin(sums, median / factor), bell_of_bin(sums, median * factor)}};
+    footprint_bin bin = {.terms = {bell_of_bin(sums, median / factor + light),
+                                   bell_of_bin(sums, median * factor + light)}};
     for (int j = 0; j < 3; j++)
         bin.colour[j] = sums->colour[j] / weight;
     return bin;
 }
 
+/// How many there are.
 static uint32_t collect(const footprint *patch, const plane_mixture *m,
-                        footprint_bin bins[MOMENT_MAXIMUM_BINS]) {
-    bin_sums sums[MOMENT_MAXIMUM_BINS] = {0};
+                        bin_sums sums[MOMENT_MAXIMUM_BINS]) {
     for (uint32_t i = 0; i < patch->count; i++) {
         const plane_sample *lobe = &patch->lobes[i];
         double members[MOMENT_MAXIMUM_BINS];
@@ -208,30 +220,40 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
     uint32_t count = 0;
     for (uint32_t k = 0; k < m->count; k++)
         if (sums[k].places.weight > 1e-6)
-            bins[count++] = make_bin(&sums[k], patch->log_normal);
+            sums[count++] = sums[k];
     return count;
 }
 
-footprint_error passes_footprint_compare(const footprint *patch, const plane_mixture *mixture) {
+static footprint_error compare_light(const footprint *patch, const footprint_light *light,
+                                     const bin_sums *sums, uint32_t count) {
     footprint_bin bins[MOMENT_MAXIMUM_BINS];
-    const uint32_t count = collect(patch, mixture, bins);
     footprint_error error = {0};
+    for (uint32_t k = 0; k < count; k++)
+        bins[k] = make_bin(&sums[k], patch->log_normal, light->variance);
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
         double all = 0, coloured[3] = {0};
         for (uint32_t k = 0; k < count; k++) {
-            double value = evaluate(&bins[k].terms[0], patch->places[i]) +
-                           evaluate(&bins[k].terms[1], patch->places[i]);
+            double value = evaluate(&bins[k].terms[0], light->places[i]) +
+                           evaluate(&bins[k].terms[1], light->places[i]);
             all += value;
             for (int j = 0; j < 3; j++)
                 coloured[j] += value * bins[k].colour[j];
         }
-        const double part = part_of(patch, i);
+        const double part = part_of(light, i);
         for (int j = 0; j < 3; j++) {
-            double truth = patch->truth[i][j];
+            double truth = light->truth[i][j];
             double mean = all * patch->colour[j] - truth, own = coloured[j] - truth;
             error.mean_colour += part * mean * mean;
             error.bin_colours += part * own * own;
         }
     }
     return error;
+}
+
+void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
+                              footprint_error errors[FOOTPRINT_LIGHTS]) {
+    bin_sums sums[MOMENT_MAXIMUM_BINS] = {0};
+    const uint32_t count = collect(patch, mixture, sums);
+    for (uint32_t i = 0; i < patch->light_count; i++)
+        errors[i] = compare_light(patch, &patch->lights[i], sums, count);
 }

@@ -6,23 +6,35 @@
 /// The lobes under a pixel, to compare what bins make of them with what they are. Lobes are
 /// Gaussians in the Lambert plane.
 
-enum { FOOTPRINT_PLACES = 128 };
+enum { FOOTPRINT_PLACES = 128, FOOTPRINT_LIGHTS = 2 };
+
+/// What the lobes reflect of a light.
+typedef struct footprint_light {
+    double variance; ///< of the light itself, as half vectors see it
+    /// Half vectors, drawn with a density proportional to all lobes.
+    double places[FOOTPRINT_PLACES][2];
+    double densities[FOOTPRINT_PLACES];
+    double truth[FOOTPRINT_PLACES][3]; ///< what the lobes reflect there, by colour
+    double square;                     ///< of what the lobes reflect, integrated over half vectors
+    double whites;                     ///< the same of white lobes
+} footprint_light;
 
 typedef struct footprint {
     uint32_t count;
     plane_sample *lobes; ///< weights add up to one
     bool log_normal;     ///< what bins take the deviations of base lobes for: those of GGX
-    /// Half vectors, drawn with a density proportional to all lobes.
-    double places[FOOTPRINT_PLACES][2];
-    double densities[FOOTPRINT_PLACES];
-    double truth[FOOTPRINT_PLACES][3]; ///< what the lobes reflect there, by colour
-    double colour[3];                  ///< mean specular colour, as averaged maps have it
-    double square;                     ///< of what the lobes reflect, integrated over half vectors
-    double whites;                     ///< the same of white lobes
+    uint32_t light_count;
+    /// A point and, where there are two, a broad light: under a point alone sharp lobes of many
+    /// directions are spikes, which no bins match better than others.
+    footprint_light lights[FOOTPRINT_LIGHTS];
+    double colour[3];     ///< mean specular colour, as averaged maps have it
     double diffuse_error; ///< of the diffuse colour of averaged maps, relative to all colours
 } footprint;
 
-/// Completes a footprint of which the first three are set. `microfacet`: colours are F0.
+/// Whether lobes of this variance look different under the broad light.
+bool passes_footprint_is_sharp(double variance);
+
+/// Completes a footprint of which the first four are set. `microfacet`: colours are F0.
 void passes_footprint_complete(footprint *patch, bool microfacet);
 
 /// Squared errors, integrated over half vectors.
@@ -30,7 +42,8 @@ typedef struct footprint_error {
     double mean_colour, bin_colours; ///< bins with the footprint's mean colour, or with their own
 } footprint_error;
 
-/// The error of the bins that the mixture makes of the footprint.
-footprint_error passes_footprint_compare(const footprint *patch, const plane_mixture *mixture);
+/// The errors, by light, of the bins that the mixture makes of the footprint.
+void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
+                              footprint_error errors[FOOTPRINT_LIGHTS]);
 
 #endif

@@ -122,6 +122,16 @@ static void as_many_bins_as_pay(void **state) {
     assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
 }
 
+/// Under a point of light many sharp lobes are spikes, which no bins match; a broad one shows where
+/// there are more of them.
+static void sharp_lobes_of_many_directions_take_several_bins(void **state) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.1, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.7, 33));
+    assert_true(partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false).bins >
+                1);
+}
+
 /// Noise beside polished facets of two sides, which reflect this part of what the noise does.
 static moment_partition partition_of_noise_and_facets(fixture *f, float facets) {
     enum { EXTENT = 128 };
@@ -393,6 +403,7 @@ int main(void) {
         cmocka_unit_test(directions_are_told_apart),
         cmocka_unit_test(widths_are_told_apart),
         cmocka_unit_test(as_many_bins_as_pay),
+        cmocka_unit_test(sharp_lobes_of_many_directions_take_several_bins),
         cmocka_unit_test(black_texels_decide_nothing),
         cmocka_unit_test(bins_have_colours_that_go_with_lobes),
         cmocka_unit_test(what_was_asked_for),
