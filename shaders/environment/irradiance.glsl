@@ -22,14 +22,22 @@ vec3 mean_irradiance(surface_point surface, vec3 mean_normal) {
            harmonic_irradiance_of_mean_normal(irradiance.coefficients, normal);
 }
 
-// The same without the light from below the surface, of which normals of cosine n_z see the
-// fraction (1 - n_z)/2 if it comes evenly: exact for a uniform sky over a uniform ground.
+// Of that, what comes from below the surface: from a cube's last level as if it came evenly.
+vec3 irradiance_from_below(surface_point surface, vec3 mean_normal) {
+    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP)
+        return (0.5 - 0.5 * clamp(mean_normal.z, -1.0, 1.0)) *
+               mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
+    return (environment.intensity * INVERSE_PI) *
+           harmonic_irradiance_from_below(irradiance.coefficients,
+                                          to_environment(surface, mean_normal),
+                                          to_environment(surface, vec3(0.0, 0.0, 1.0)));
+}
+
 vec3 irradiance_above(surface_point surface, vec3 mean_normal) {
     vec3 all = mean_irradiance(surface, mean_normal);
     if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL))
         return all;
-    vec3 below = mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
-    return max(all - (0.5 - 0.5 * clamp(mean_normal.z, -1.0, 1.0)) * below, 0.0);
+    return max(all - irradiance_from_below(surface, mean_normal), 0.0);
 }
 
 #endif

@@ -184,11 +184,11 @@ vec3 microfacets_by_mip(surface_point surface, half_vector_distribution lobe, ve
     return reflected * lobe_radiance(surface, lobe, incoming);
 }
 
-// Of light from above a normal, from even surroundings, what lies below the surface.
+// Of light from above a normal, what lies below the surface.
 vec3 below_surface(surface_point surface, vec3 normal) {
     if (HORIZON == HORIZON_IGNORED || CLOSED || !has_map(MAP_NORMAL))
         return vec3(0.0);
-    return (0.5 - 0.5 * normal.z) * mean_irradiance(surface, vec3(0.0, 0.0, -1.0));
+    return irradiance_from_below(surface, normal);
 }
 
 // Shares of the ways in which reflected light is found, [0, 1] each; the rest is a lobe.

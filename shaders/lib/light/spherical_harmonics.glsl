@@ -36,6 +36,40 @@ vec3 harmonic_irradiance_by_degree(vec4 coefficients[HARMONICS], vec3 direction,
     return max(sum, vec3(0.0));
 }
 
+// Degrees 1 and 2 of irradiance as homogeneous polynomials of any vector.
+vec3 linear_harmonics(vec4 coefficients[HARMONICS], vec3 d) {
+    const float linear = 0.488602511902919921;
+    return linear * (d.y * coefficients[1].rgb + d.z * coefficients[2].rgb +
+                     d.x * coefficients[3].rgb);
+}
+
+vec3 quadratic_harmonics(vec4 coefficients[HARMONICS], vec3 d) {
+    const float quadratic = 1.09254843059207907;
+    return quadratic * (d.x * d.y * coefficients[4].rgb + d.y * d.z * coefficients[5].rgb +
+                        d.x * d.z * coefficients[7].rgb +
+                        0.5 * (d.x * d.x - d.y * d.y) * coefficients[8].rgb) +
+           (0.315391565252520002 * (3.0 * d.z * d.z - dot(d, d))) * coefficients[6].rgb;
+}
+
+// The part of a normal's irradiance that comes from below a horizon: the integral of
+// max(<n, w>, 0) over <u, w> < 0, `up` = u. Of a normal at the angle t from u, m of them across u,
+// it is of degrees 0 to 2
+//   (1 - cos t)/2 E_0 + E_1(t m - (sin t - t cos t) u)/pi + (E_2(n - u) - (1 - cos t) E_2(u))/2.
+// `mean_normal`: n, or shorter, of normals that vary: then cos t is their mean, which is exact for
+// degree 0, and (1 - |n|^2)/2 their variance across the mean.
+vec3 harmonic_irradiance_from_below(vec4 coefficients[HARMONICS], vec3 mean_normal, vec3 up) {
+    float cosine = clamp(dot(mean_normal, up), -1.0, 1.0);
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0)), angle = acos(cosine);
+    vec3 across = mean_normal - cosine * up;
+    vec3 constant = (0.5 - 0.5 * cosine) * 0.282094791773878143 * coefficients[0].rgb;
+    vec3 linear = linear_harmonics(coefficients, angle * across -
+                                                     (sine - angle * cosine) * up);
+    float upright = 1.0 - cosine + 0.5 * max(1.0 - dot(mean_normal, mean_normal), 0.0);
+    vec3 quadratic = quadratic_harmonics(coefficients, mean_normal - up) -
+                     upright * quadratic_harmonics(coefficients, up);
+    return max(constant + INVERSE_PI * linear + 0.5 * quadratic, vec3(0.0));
+}
+
 // Mean irradiance of surfaces whose normals have the mean r mu, 0 <= r <= 1, and are distributed
 // about mu as von Mises-Fisher. A convolution with such a distribution multiplies degree l by
 // its own coefficient (Funk, Hecke; Ramamoorthi, Hanrahan, 2001, On the Relationship between

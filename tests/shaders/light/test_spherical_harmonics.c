@@ -13,7 +13,7 @@
 #include "tests/shaders/support/quadrature.h"
 #include "tests/shaders/support/samples.h"
 
-enum { COUNT = 1000, UNIT_NORMAL = 0, MEAN_NORMAL = 1, PANELS = 12, AZIMUTHS = 8 };
+enum { COUNT = 1000, UNIT_NORMAL = 0, MEAN_NORMAL = 1, FROM_BELOW = 2, PANELS = 12, AZIMUTHS = 8 };
 static harness_arguments arguments[COUNT];
 static harness_result results[COUNT];
 
@@ -178,11 +178,58 @@ static void test_exact_mean(void **state) {
                     exact[i].value[0], 2e-5);
 }
 
+/// The radiance whose irradiance has these coefficients: degrees are divided by Lambert's factors.
+static harness_arguments radiance_of(const harness_arguments *at) {
+    harness_arguments radiance = *at;
+    radiance.a[3] /= (float)M_PI;
+    for (int i = 1; i < 9; i++)
+        (i < 5 ? radiance.b : radiance.c)[(i - 1) % 4] /= (float)(i < 4 ? 2 * M_PI / 3 : M_PI / 4);
+    return radiance;
+}
+
+/// By brute force.
+static double irradiance_from_below(const harness_arguments *at, const double up[3]) {
+    enum { HEIGHTS = 100, TURNS = 200 };
+    const harness_arguments radiance = radiance_of(at);
+    double sum = 0;
+    for (int i = 0; i < HEIGHTS * TURNS; i++) {
+        const double height = 2 * (i / TURNS + 0.5) / HEIGHTS - 1, azimuth = 2 * M_PI * i / TURNS;
+        const double level = sqrt(1 - height * height);
+        const double w[3] = {level * cos(azimuth), level * sin(azimuth), height};
+        double cosine = 0, above = 0;
+        for (int k = 0; k < 3; k++) {
+            cosine += (double)at->a[k] * w[k];
+            above += up[k] * w[k];
+        }
+        if (above < 0 && cosine > 0)
+            sum += cosine * sum_at(&radiance, w);
+    }
+    return 4 * M_PI / (HEIGHTS * TURNS) * sum;
+}
+
+static void test_from_below(void **state) {
+    enum { NORMALS = 30 };
+    const double up[3] = {0.48, 0.64, 0.6};
+    uint64_t random = 85;
+    for (size_t i = 0; i < NORMALS; i++) {
+        random_direction(&random, arguments[i].a);
+        random_coefficients(&random, &arguments[i]);
+    }
+    harness_evaluate(state, "light/spherical_harmonics.comp", FROM_BELOW, arguments, NORMALS,
+                     results);
+    for (size_t i = 0; i < NORMALS; i++)
+        // Relative to the whole irradiance, about 2.3.
+        check_close("harmonic_irradiance_from_below", &arguments[i],
+                    2 + (double)results[i].value[0], 2 + irradiance_from_below(&arguments[i], up),
+                    2e-3);
+    report_worst_error("harmonic_irradiance_from_below");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_basis),          cmocka_unit_test(test_unit_normal),
         cmocka_unit_test(test_never_negative), cmocka_unit_test(test_mean_normal),
-        cmocka_unit_test(test_exact_mean),
+        cmocka_unit_test(test_exact_mean),     cmocka_unit_test(test_from_below),
     };
     return cmocka_run_group_tests_name("spherical_harmonics", tests, harness_set_up,
                                        harness_tear_down);
