@@ -17,8 +17,9 @@ float spread_of_normals(direction_lobe lobe, float parameter) {
     return 1.0 - min(base / max(lobe_variance(lobe), 1e-10), 1.0);
 }
 
+// `masked`: by the other facet of each normal's pair.
 vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                         float parameter) {
+                         float parameter, bool masked) {
     float spread = spread_of_normals(lobe.shape, parameter);
     float mean_cosine = dot(lobe.shape.axis, surface.outgoing);
     vec3 sum = vec3(0.0);
@@ -35,7 +36,7 @@ vec3 sampled_microfacets(surface_point surface, half_vector_distribution lobe, v
             float scale = max(half_cosine, 0.0) /
                           (outgoing_cosine * max(dot(normal, point.half_vector), 1e-3));
             float seen = above_horizon(incoming) ? visible * scale : 0.0;
-            if (CLOSED)
+            if (masked)
                 seen *= unmasked_share(slope_of_normal(normal), surface.outgoing, incoming);
             vec3 fresnel = fresnel_schlick(f0, vec3(1.0), half_cosine);
             sum += point.weight * seen * fresnel * sample_radiance(surface, point, incoming);
@@ -323,7 +324,7 @@ vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lob
 vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                          float parameter) {
     if (sampled_by_grid())
-        return sampled_microfacets(surface, lobe, f0, parameter);
+        return sampled_microfacets(surface, lobe, f0, parameter, CLOSED);
     return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
                ? microfacets_by_mip(surface, lobe, f0, parameter)
                : prefiltered_microfacets(surface, lobe, f0, parameter);

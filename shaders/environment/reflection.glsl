@@ -128,13 +128,15 @@ vec3 reflect_facets(surface_point surface, facet_sum sum, uint kind, vec3 f0, fl
     if (sum.passing < 1e-6)
         return sum.reflected;
     direction_lobe normals = lobe_of_passing(sum, surface.outgoing);
-    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP) {
+    if (ENVIRONMENT_METHOD == ENVIRONMENT_MIP || sampled_by_grid()) {
         direction_lobe base =
             base_half_vectors(normals.axis, parameter, surface.outgoing).shape;
         normals = broadened_lobe(normals, base.first, base.second);
+        half_vector_distribution lobe = half_vector_distribution(normals, kind);
         return sum.reflected +
-               sum.passing * microfacets_by_mip(surface, half_vector_distribution(normals, kind),
-                                                f0, parameter);
+               sum.passing * (sampled_by_grid()
+                                  ? sampled_microfacets(surface, lobe, f0, parameter, false)
+                                  : microfacets_by_mip(surface, lobe, f0, parameter));
     }
     return sum.reflected +
            sum.passing * reflect_facing(surface, normals, kind, f0, parameter, true);

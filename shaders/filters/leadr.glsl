@@ -254,8 +254,6 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
     half_vector_distribution half_vectors = half_vectors_of_slopes(slopes);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return lobes_colour() * frame.specular * reflect_half_vectors(surface, half_vectors);
-    if (CLOSED)
-        return reflect_microfacets(surface, half_vectors, frame.specular, frame.width);
     if (sampled_by_grid())
         return sampled_slopes(surface, fetched.lobe, frame.specular);
     return reflect_masked_slopes(surface, half_vectors, frame.specular,
@@ -291,8 +289,6 @@ vec3 reflect_closed_facets(appearance fetched, surface_point surface) {
     facet_sum sum = no_facets();
     for (int i = 0; i < SLOPE_NODES; ++i)
         add_facet(sum, surface, facet_of_footprint(fetched, i));
-    if (sampled_by_grid()) // samples are masked one by one
-        return sum.reflected + reflect_slopes(fetched, surface);
     float width = fetched.filtered.width;
     uint kind = base_half_vectors(SURFACE_NORMAL, width, surface.outgoing).kind;
     return reflect_facets(surface, sum, kind, fetched.filtered.specular, width);

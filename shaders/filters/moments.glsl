@@ -315,8 +315,6 @@ vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin
     facet_sum sum = no_facets();
     for (int i = 0; i < SLOPE_NODES; ++i)
         add_facet(sum, surface, facet_of_bin(bin, fetched.filtered, i));
-    if (sampled_by_grid()) // samples are masked one by one
-        return sum.reflected + reflect_bin(surface, bin, f0);
     return reflect_facets(surface, sum, distribution_kind(), f0,
                           parameter_of_plane_variance(DISTRIBUTION, bin.variance));
 }

@@ -117,6 +117,26 @@ static void a_closed_white_surface_loses_nothing(void **state) {
     check_furnace(*state, &dielectric, 0.7, 75);
 }
 
+/// What samples of the environment reflect, and what facets exchange, are all the light together.
+static void samples_lose_nothing(void **state) {
+    const lobe_material metal = white_material(0.8, 1);
+    lobe_scene *scene = bumpy_plane(&metal, 0.4, 40);
+    scene_surround(scene, 16, white);
+    scene_end(scene);
+    for (int i = 0; i < 2; i++) {
+        const picture_request request = {.filter = i ? "leadr" : "moments",
+                                         .settings = {closed, "scattering=multiple", "env=sampled"},
+                                         .width = 1,
+                                         .height = 1};
+        lobe_frame frame = draw_scene(*state, scene, &request);
+        const double found = (double)pixel_at(&frame.radiance, 0, 0)[1];
+        if (!(fabs(found - 1) <= 0.06))
+            fail_msg("%s: reflects %g of the light", request.filter, found);
+        lobe_frame_free(&frame);
+    }
+    lobe_scene_destroy(&scene);
+}
+
 /// However many texels the environment has: lavapipe ends the loops of a shader that takes too
 /// many.
 static void exact_light_is_all_light(void **state) {
@@ -272,6 +292,7 @@ static void light_and_viewer_may_change_places(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_closed_white_surface_loses_nothing),
+        cmocka_unit_test(samples_lose_nothing),
         cmocka_unit_test(exact_light_is_all_light),
         cmocka_unit_test(filters_with_maps_refuse_exact_light),
         cmocka_unit_test(a_classic_white_surface_loses_light),
