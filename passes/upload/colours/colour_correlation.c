@@ -107,15 +107,17 @@ static bool are_readable(const lobe_scene *scene, const device_material *materia
 /// What the answer depends on.
 static colour_correlation inputs_of(const device_material *material) {
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_NORMAL, MAP_WIDTH};
-    colour_correlation inputs = {.known = true,
-                                 .lie_alike = has_texels(&material->maps[MAP_BASE_COLOUR]) &&
-                                              has_texels(&material->maps[MAP_NORMAL]) &&
-                                              !material->material->alpha_mask &&
-                                              passes_lies_under_lobes(material, MAP_BASE_COLOUR),
-                                 .images = {-1, -1, -1},
-                                 .normal_scale = material->material->normal_scale,
-                                 .height_scale = material->height_scale,
-                                 .metallic = material->metallic};
+    const lobe_grid grid = passes_lobe_grid(material);
+    const device_map *colours = &material->maps[MAP_BASE_COLOUR];
+    colour_correlation inputs = {
+        .known = true,
+        .lie_alike = has_texels(colours) && has_texels(&material->maps[MAP_NORMAL]) &&
+                     !material->material->alpha_mask &&
+                     passes_lobe_grid_shares_coordinates(&grid, colours->use),
+        .images = {-1, -1, -1},
+        .normal_scale = material->material->normal_scale,
+        .height_scale = material->height_scale,
+        .metallic = material->metallic};
     for (int i = 0; i < 3; i++) {
         if (material->maps[maps[i]].use)
             inputs.images[i] = material->maps[maps[i]].use->image;
