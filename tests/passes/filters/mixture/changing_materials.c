@@ -5,10 +5,12 @@
 #include "tests/passes/support/scene_builder.h"
 
 const char *const changing_material_names[CHANGING_MATERIALS] = {
-    "stones in joints", "two bumps",     "scratches",     "weave",           "rust",
-    "bricks",           "rough waves",   "leaves",        "tiles",           "yarn and leather",
-    "pebbles",          "stamped metal", "peeling paint", "gravel and moss", "grooved sheets",
-    "planks",
+    "stones in joints", "two bumps",        "scratches",     "weave",           "rust",
+    "bricks",           "rough waves",      "leaves",        "tiles",           "yarn and leather",
+    "pebbles",          "stamped metal",    "peeling paint", "gravel and moss", "grooved sheets",
+    "planks",           "knurled metal",    "woven carbon",  "cracked paint",   "orange peel",
+    "fish scale",       "embossed leather", "rivets",        "turned metal",    "beads",
+    "ice and snow",
 };
 
 /// At a texel.
@@ -249,12 +251,158 @@ static changing_texel planks(double x, double y) {
     return texel;
 }
 
+// ---------------------------------------------------------------------------------------------
+// A third list, made when the first two had been measured: nothing was changed after it
+
+/// Knurled metal, worn flat in a band, where it shines.
+static changing_texel knurled_metal(double x, double y) {
+    const double u = fmod(x + y, 10) / 5 - 1, v = fmod(x - y + 260, 10) / 5 - 1;
+    const double wear = exp(-pow((x - 0.3 * y - 90) / 40, 2));
+    if (fmax(fabs(u), fabs(v)) < wear)
+        return (changing_texel){{0, 0}, 190, 1};
+    const bool first = fabs(u) > fabs(v);
+    const double a = first ? copysign(0.5, u) : 0, b = first ? 0 : copysign(0.5, v);
+    return (changing_texel){{a + b, a - b}, 60, 0.6};
+}
+
+/// Carbon fibres under resin, woven two over two; resin lacks in one corner.
+static changing_texel woven_carbon(double x, double y) {
+    const int column = (int)(x / 9), row = (int)(y / 9);
+    const bool warp = (column + row) % 4 < 2;
+    const double u = fmod(warp ? x : y, 9) / 4.5 - 1, v = fmod(warp ? y : x, 18) / 9 - 1;
+    const double round = 0.35 * u + 0.15 * sin(2.2 * (warp ? x : y)), along = 0.2 * v;
+    const bool dry = x + y > 390;
+    return (changing_texel){{warp ? round : along, warp ? along : round},
+                            dry ? 20 : 80,
+                            dry ? 0.15 : 0.3 + 0.2 * random_of(column, row)};
+}
+
+/// Paint in plates with raised rims; bare metal shows in the cracks.
+static changing_texel cracked_paint(double x, double y) {
+    double nearest = 1e9, second = 1e9, towards[2] = {0};
+    const int column = (int)(x / 22), row = (int)(y / 22);
+    for (int i = -1; i <= 1; i++) {
+        for (int k = -1; k <= 1; k++) {
+            const double u = 22 * (column + i + random_of(column + i, row + k)) - x;
+            const double v = 22 * (row + k + random_of(column + i + 90, row + k)) - y;
+            const double distance = hypot(u, v);
+            second = fmin(second, fmax(distance, nearest));
+            if (distance < nearest) {
+                nearest = distance;
+                towards[0] = u / distance;
+                towards[1] = v / distance;
+            }
+        }
+    }
+    const double rim = second - nearest;
+    if (rim < 2.5)
+        return (changing_texel){{0, 0}, 170, 1};
+    const double steep = rim < 7 ? 0.45 : 0;
+    changing_texel texel = {{steep * towards[0], steep * towards[1]}, 35, 0.35};
+    add_noise(x / 8, y / 8, 0.06, &texel);
+    return texel;
+}
+
+/// Lacquer that runs into small hills, polished on one side.
+static changing_texel orange_peel(double x, double y) {
+    const double polish = 1 / (1 + exp((x - 128) / 15));
+    changing_texel texel = {{0, 0}, 60 + 130 * polish, 0.5 + 0.4 * polish};
+    add_noise(x / 5, y / 5, 0.4 - 0.33 * polish, &texel);
+    return texel;
+}
+
+/// Scales that overlap, silver on the belly and dark on the back.
+static changing_texel fish_scale(double x, double y) {
+    for (int over = 0; over < 2; over++) {
+        const int row = (int)(y / 7) - over;
+        const double shift = row % 2 == 0 ? 0 : 7;
+        const int column = (int)floor((x + shift) / 14);
+        const double u = (x + shift - 14 * column) / 7 - 1, v = (y - 7 * row) / 14;
+        if (u * u + v * v > 1)
+            continue;
+        const bool silver = y > 120 + 12 * sin(x / 30);
+        return (changing_texel){{0.35 * u, 0.5 * v + 0.1 * (random_of(column, row) - 0.5)},
+                                silver ? 150 : 45,
+                                silver ? 0.7 + 0.3 * random_of(column, row + 9) : 0.2};
+    }
+    return (changing_texel){{0, 0}, 18, 0.1};
+}
+
+/// Leather with a pattern of stems pressed into it, where it is smooth.
+static changing_texel embossed_leather(double x, double y) {
+    changing_texel texel = {{0, 0}, 28, 0.4};
+    const double stem = y - 26 * floor(y / 26) - 13 - 6 * sin(x / 9);
+    if (fabs(stem) < 4) {
+        const double steep = 0.5 * pow(stem / 4, 3), bend = -6.0 / 9 * cos(x / 9);
+        return (changing_texel){{steep * bend, steep}, 120, 0.7};
+    }
+    add_noise(x / 3.5, y / 3.5, 0.5, &texel);
+    return texel;
+}
+
+/// Plates of steel with rows of rivets, brushed in directions of their own.
+static changing_texel rivets(double x, double y) {
+    const double u = fmod(x, 32) - 16, v = fmod(y, 16) - 8;
+    if (hypot(u, v) < 5)
+        return (changing_texel){{0.16 * u, 0.16 * v}, 110, 1};
+    changing_texel texel = {{0, 0}, 140, 0.6};
+    const bool turned = ((int)(x / 64) + (int)(y / 64)) % 2 == 1;
+    add_noise(x / (turned ? 40 : 1.2), y / (turned ? 1.2 : 40), 0.14, &texel);
+    if (fmod(x, 64) < 2)
+        texel = (changing_texel){{0.7, 0}, 20, 0.1};
+    return texel;
+}
+
+/// Metal turned on a lathe: grooves around the middle, coarser and duller outside.
+static changing_texel turned_metal(double x, double y) {
+    const double u = x - 131, v = y - 122, r = fmax(hypot(u, v), 1);
+    const double steep = (0.12 + 0.4 * fmin(r / 128, 1)) * sin(2.1 * r + 3 * noise(x / 9, y / 9));
+    return (changing_texel){{steep * u / r, steep * v / r}, 180 - 100 * fmin(r / 128, 1), 0.8};
+}
+
+/// Beads of glass on cloth, some bare.
+static changing_texel beads(double x, double y) {
+    const int column = (int)(x / 8), row = (int)(y / 8);
+    const double u = fmod(x, 8) / 4 - 1, v = fmod(y, 8) / 4 - 1, r = hypot(u, v);
+    if (r < 0.85 && noise(column / 5.0 + 30, row / 5.0) > 0.45)
+        return (changing_texel){{0.9 * u, 0.9 * v}, 200, random_of(column, row) < 0.5 ? 1 : 0.3};
+    const double thread = (column + row) % 2 == 0 ? u : v;
+    return (changing_texel){{(column + row) % 2 == 0 ? 0.5 * thread : 0.1,
+                             (column + row) % 2 == 0 ? 0.1 : 0.5 * thread},
+                            22,
+                            0.25};
+}
+
+/// Ice with cracks and snow blown over it.
+static changing_texel ice_and_snow(double x, double y) {
+    const double drift = noise(x / 33 + 70, y / 19) + 0.25 * noise(x / 6, y / 4);
+    changing_texel texel = {{0, 0}, 200, 0.3};
+    if (drift > 0.66) {
+        texel = (changing_texel){{0, 0}, 15, 1};
+        add_noise(x / 2.5, y / 2.5, 0.35, &texel);
+    } else {
+        add_noise(x / 25, y / 25, 0.15, &texel);
+        if (fabs(noise(x / 17, y / 17 + 40) - 0.5) < 0.02)
+            texel = (changing_texel){{0.4, -0.3}, 50, 0.9};
+    }
+    return texel;
+}
+
 lobe_image changing_material(int which, uint32_t extent, lobe_image *colours) {
     static changing_texel (*const materials[CHANGING_MATERIALS])(double, double) = {
-        stones,  bumps,         scratches,     weave,           rust,
-        bricks,  waves,         leaves,        tiles,           yarn_and_leather,
-        pebbles, stamped_metal, peeling_paint, gravel_and_moss, grooved_sheets,
-        planks};
+        stones,         bumps,
+        scratches,      weave,
+        rust,           bricks,
+        waves,          leaves,
+        tiles,          yarn_and_leather,
+        pebbles,        stamped_metal,
+        peeling_paint,  gravel_and_moss,
+        grooved_sheets, planks,
+        knurled_metal,  woven_carbon,
+        cracked_paint,  orange_peel,
+        fish_scale,     embossed_leather,
+        rivets,         turned_metal,
+        beads,          ice_and_snow};
     lobe_image map = map_image(LOBE_FORMAT_RGBA32_FLOAT, extent, extent);
     *colours = map_image(LOBE_FORMAT_R32_FLOAT, extent, extent);
     for (uint32_t i = 0; i < extent * extent; i++) {

@@ -5,7 +5,7 @@
 
 /// Maps made here whose relief, sharpness and colour change together over the map.
 
-enum { CHANGING_MATERIALS = 16 };
+enum { CHANGING_MATERIALS = 26 };
 
 /// Which of them.
 extern const char *const changing_material_names[CHANGING_MATERIALS];

@@ -4,7 +4,7 @@
 //
 // `test_filters_mixture_map_error NORMALS[,ROUGHNESS]...` prints the same of photographed maps,
 // `test_filters_mixture_map_error materials` of maps whose relief, sharpness and colour change
-// together.
+// together, `test_filters_mixture_map_error "fish scale" ...` of those with these names.
 
 #include "tests/passes/support/fixture.h"
 
@@ -305,7 +305,8 @@ static void print_errors(fixture *f, const char *path) {
     lobe_image_free(&map.lobes);
 }
 
-static void print_changing_materials(fixture *f) {
+/// `named`: those of this name, or all "materials". Whether there are any.
+static bool print_changing_materials(fixture *f, const char *named) {
     static const candidate compared[] = {
         {"lobes", {NULL}},
         {"moments", {"bins=4", NULL}},
@@ -315,7 +316,11 @@ static void print_changing_materials(fixture *f) {
         {"mixture", {"steps=8", NULL}},
         {"mixture", {"components=6", NULL}},
     };
+    bool any = false;
     for (int i = 0; i < CHANGING_MATERIALS; i++) {
+        if (strcmp(named, "materials") != 0 && strcmp(named, changing_material_names[i]) != 0)
+            continue;
+        any = true;
         lobe_image colours;
         measured_map map = {changing_material(i, EXTENT, &colours), &colours};
         print_candidates(f, changing_material_names[i], &map, compared,
@@ -323,6 +328,7 @@ static void print_changing_materials(fixture *f) {
         lobe_image_free(&map.lobes);
         lobe_image_free(&colours);
     }
+    return any;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -409,9 +415,7 @@ int main(int count, char **arguments) {
     void *state = NULL;
     fixture_create(&state);
     for (int i = 1; i < count; i++)
-        if (strcmp(arguments[i], "materials") == 0)
-            print_changing_materials(state);
-        else
+        if (!print_changing_materials(state, arguments[i]))
             print_errors(state, arguments[i]);
     fixture_destroy(&state);
     return 0;
