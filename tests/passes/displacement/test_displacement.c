@@ -99,6 +99,31 @@ static void vertices_have_the_height_of_their_level(void **state) {
     check_heights(f, 3.2, "pixels_per_vertex=6", 6, 8, log2(6 * 128 / 20.0));
 }
 
+/// Where the largest edge of a patch alone has two segments, the patch is two triangles, and not
+/// one and a wall above that edge.
+static void no_triangle_is_a_wall(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = plane_with_heights(40, 1, random_heights(128, 128), 1, 10);
+    drawn_geometry g = displaced_geometry_of(f, scene, 64, "pixels_per_vertex=1.75");
+    assert_true(g.triangle_count > 0);
+    assert_int_equal(6 * g.triangle_count, 4 * g.vertex_count);
+    for (uint32_t i = 0; i < g.triangle_count; i++) {
+        double edges[2][3], normal[3], square = 0;
+        for (int e = 0; e < 2; e++)
+            for (int k = 0; k < 3; k++)
+                edges[e][k] = (double)(g.vertices[g.indices[3 * i + 1 + (uint32_t)e]].position[k] -
+                                       g.vertices[g.indices[3 * i]].position[k]);
+        for (int k = 0; k < 3; k++) {
+            normal[k] = edges[0][(k + 1) % 3] * edges[1][(k + 2) % 3] -
+                        edges[0][(k + 2) % 3] * edges[1][(k + 1) % 3];
+            square += normal[k] * normal[k];
+        }
+        assert_true(sqrt(square) < 1e-6 || fabs(normal[1]) > 0.5 * sqrt(square));
+    }
+    drawn_geometry_free(&g);
+    lobe_scene_destroy(&scene);
+}
+
 /// Linear heights are the same on every level, and between all vertices.
 static void a_ramp_is_a_ramp(void **state) {
     fixture *f = *state;
@@ -545,6 +570,7 @@ static void odd_maps_and_triangles_are_drawn(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(vertices_have_the_height_of_their_level),
+        cmocka_unit_test(no_triangle_is_a_wall),
         cmocka_unit_test(a_ramp_is_a_ramp),
         cmocka_unit_test(closed_surfaces_stay_closed),
         cmocka_unit_test(nothing_shines_through),
