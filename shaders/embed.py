@@ -25,6 +25,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import early_returns
+
 STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
@@ -33,11 +35,11 @@ VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
 # pass arguments, lavapipe creates a shading pipeline in half the time. Branches that a variant does
 # not take go before that: they would be inlined at every call. Bindings and specialisation
 # constants stay, also those that no code uses.
-OPTIMISATIONS = ("--preserve-bindings", "--preserve-spec-constants",
-                 "--eliminate-dead-branches", "--eliminate-dead-functions",
-                 "--inline-entry-points-exhaustive", "--eliminate-dead-functions",
-                 "--eliminate-local-single-block", "--eliminate-local-single-store",
-                 "--eliminate-dead-code-aggressive")
+PRESERVE = ("--preserve-bindings", "--preserve-spec-constants")
+BEFORE_INLINING = (*PRESERVE, "--eliminate-dead-branches", "--eliminate-dead-functions")
+INLINING = (*PRESERVE, "--inline-entry-points-exhaustive", "--eliminate-dead-functions",
+            "--eliminate-local-single-block", "--eliminate-local-single-store",
+            "--eliminate-dead-code-aggressive")
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,7 @@ def files_of(folder, includes, shader):
 
 def digest_of(tools, folder, includes, shader):
     """Changes with whatever decides a shader's words."""
-    parts = [repr(shader), repr(OPTIMISATIONS)]
+    parts = [repr(shader), repr((BEFORE_INLINING, INLINING))]
     parts += [os.path.relpath(path, folder) for path in includes]
     for tool in (tools.compiler, tools.validator, tools.optimiser):
         status = os.stat(tool)
@@ -121,8 +123,8 @@ def run(shader, command):
 
 def compile_shader(tools, folder, includes, shader, scratch):
     """Returns the SPIR-V of one shader. The compiler sometimes generates invalid SPIR-V for
-    constants computed from specialisation constants: the optimiser validates what it reads, for the
-    environment that it is told, and the validator what a driver sees."""
+    constants computed from specialisation constants, and the optimiser keeps these: the validator
+    sees what a driver will see. It takes ten times as long before functions are inlined."""
     output = Path(scratch) / (shader.name + ".spv")
     substitutes = Path(scratch) / (shader.name + ".include")
     substitutes.mkdir(parents=True)
@@ -133,8 +135,12 @@ def compile_shader(tools, folder, includes, shader, scratch):
     command += [f"-D{definition}" for definition in shader.definitions]
     command += ["-o", str(output), str(folder / shader.source)]
     run(shader, command)
-    run(shader, [tools.optimiser, "--target-env=vulkan1.3", *OPTIMISATIONS, str(output),
-                 "-o", str(output)])
+    optimise = [tools.optimiser, "--target-env=vulkan1.3", "--skip-validation", str(output),
+                "-o", str(output)]
+    run(shader, [*optimise, *BEFORE_INLINING])
+    early_returns.mark(output)
+    run(shader, [*optimise, *INLINING])
+    early_returns.clear(output)
     run(shader, [tools.validator, "--target-env", "vulkan1.3", str(output)])
     return output.read_bytes()
 

@@ -18,7 +18,7 @@ void main() { f(); }
 """
 
 # Numbers of the SPIR-V specification.
-OP_FUNCTION_CALL, OP_DECORATE = 57, 71
+OP_FUNCTION, OP_FUNCTION_CALL, OP_DECORATE = 54, 57, 71
 SPECIALISATION, BINDING = 1, 33
 
 
@@ -31,6 +31,10 @@ def operations(words, code):
             found.append(words[at + 1:at + length])
         at += length
     return found
+
+
+def words_in(table):
+    return [int(word, 16) for word in re.findall(r"\\x([0-9a-f]+)", table)]
 
 
 def embed_in(scratch, sources, compiler=COMPILER):
@@ -88,10 +92,24 @@ void f() {}
 void main() { f(); }
 """})
     assert status == 0
-    words = [int(word, 16) for word in re.findall(r"\\x([0-9a-f]+)", table)]
+    words = words_in(table)
     assert operations(words, OP_FUNCTION_CALL) == [], "a function is not inlined"
     decorations = [operands[1:] for operands in operations(words, OP_DECORATE)]
     assert [SPECIALISATION, 3] in decorations and [BINDING, 2] in decorations, decorations
+
+
+def test_functions_that_return_early_stay_as_they_are():
+    status, printed, table = embed({"a.comp": """#version 460
+layout(local_size_x = 1) in;
+layout(binding = 0) buffer numbers { float number; };
+float early(float x) { if (x > 0) return 1; return x; }
+float late(float x) { return 2 * x; }
+void main() { number = early(number) + late(number); }
+"""})
+    assert status == 0 and not printed, printed
+    words = words_in(table)
+    assert len(operations(words, OP_FUNCTION_CALL)) == 1
+    assert [operands[2] for operands in operations(words, OP_FUNCTION)] == [0, 0], "marks are left"
 
 
 def test_only_what_changed_is_compiled():
