@@ -7,6 +7,7 @@ spirv-opt remove what they make unreachable, and counts what is left.
 usage: specialised_shaders.py SHADERS GLSLANG SPIRV_OPT SPIRV_DIS
 """
 
+import functools
 import re
 import subprocess
 import sys
@@ -14,7 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-shaders = glslang = spirv_opt = spirv_dis = None
+shaders = glslang = spirv_opt = spirv_dis = scratch = None
 
 FILTERS = ("direct", "mipmap", "toksvig", "lobes")
 
@@ -39,26 +40,31 @@ def run(*command):
     return done.stdout
 
 
-def compile_shading(folder, name, outputs):
-    module = folder / f"{name}{'_aov' if outputs else ''}.spv"
-    if not module.exists():
-        (folder / "filter.glsl").write_text(f'#include "filters/{name}.glsl"\n')
-        definitions = ["-DAOV"] if outputs else []
-        run(glslang, "-V", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", f"-I{shaders}",
-            *definitions, "-o", module, shaders / "shading/shading.frag")
+@functools.lru_cache(maxsize=None)
+def compile_shading(name, outputs):
+    module = scratch / f"{name}{'_aov' if outputs else ''}.spv"
+    (scratch / "filter.glsl").write_text(f'#include "filters/{name}.glsl"\n')
+    definitions = ["-DAOV"] if outputs else []
+    run(glslang, "-V", "--quiet", "--target-env", "vulkan1.3", f"-I{scratch}", f"-I{shaders}",
+        *definitions, "-o", module, shaders / "shading/shading.frag")
     return module
 
 
-def disassembly(folder, name, constants, outputs=False):
+@functools.lru_cache(maxsize=None)
+def specialised(name, values, outputs):
+    # The build has validated it.
+    optimised = scratch / "optimised.spv"
+    run(spirv_opt, "--skip-validation", f"--set-spec-const-default-value={values}",
+        "--freeze-spec-const", "--fold-spec-const-op-composite", "-O", "--loop-unroll", "-O", "-O",
+        compile_shading(name, outputs), "-o", optimised)
+    return run(spirv_dis, "--raw-id", "--no-color", optimised)
+
+
+def disassembly(name, constants, outputs=False):
     """The remaining instructions of a filter's shading pass."""
-    module = compile_shading(folder, name, outputs)
     ids = identifiers()
     values = " ".join(f"{ids[key]}:{value}" for key, value in constants.items())
-    optimised = folder / "optimised.spv"
-    run(spirv_opt, f"--set-spec-const-default-value={values}", "--freeze-spec-const",
-        "--fold-spec-const-op-composite", "-O", "--loop-unroll", "-O", "-O", module, "-o",
-        optimised)
-    return run(spirv_dis, "--raw-id", "--no-color", optimised)
+    return specialised(name, values, outputs)
 
 
 def count(text, pattern):
@@ -78,49 +84,47 @@ BARE = {"MODEL": 1, "DISTRIBUTION": 3, "LOBE_COUNT": 1, "MAPS": 0, "DIFFUSE": "f
         "SPOT_LIGHTS": "false", "LIGHTS_AT_ONCE": 1, "FILTERED_LOBES": "false"}
 
 
+def size_of(name, outputs=False, **changes):
+    return count(disassembly(name, {**BARE, **changes}, outputs), r"\n")
+
+
 class SpecialisedShaders(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(self.scratch.cleanup)
-        self.folder = Path(self.scratch.name)
-
-    def size_of(self, name, outputs=False, **changes):
-        return count(disassembly(self.folder, name, {**BARE, **changes}, outputs), r"\n")
-
     def test_a_material_without_maps_samples_none(self):
         for name in FILTERS:
-            text = disassembly(self.folder, name, BARE)
+            text = disassembly(name, BARE)
             self.assertEqual(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
             # With a normal map there is something to count.
-            text = disassembly(self.folder, name, {**BARE, "MAPS": 2, "FILTERED_LOBES": "true"})
+            text = disassembly(name, {**BARE, "MAPS": 2, "FILTERED_LOBES": "true"})
             self.assertGreater(count(text, r"OpImage\w*Sample|OpImageFetch"), 0, name)
 
     def test_what_is_absent_costs_instructions_only_where_present(self):
         for name in FILTERS:
-            bare = self.size_of(name)
+            bare = size_of(name)
             for key in ("POINT_LIGHTS", "SPOT_LIGHTS", "DIFFUSE", "ALPHA_MASK", "EMISSION",
                         "NORMAL_CONCENTRATION"):
-                self.assertGreater(self.size_of(name, **{key: "true"}), bare, f"{name}, {key}")
+                self.assertGreater(size_of(name, **{key: "true"}), bare, f"{name}, {key}")
 
     def test_without_light_no_light_is_read(self):
         for name in FILTERS:
-            text = disassembly(self.folder, name, {**BARE, "DIRECTIONAL_LIGHTS": "false"})
+            text = disassembly(name, {**BARE, "DIRECTIONAL_LIGHTS": "false"})
             self.assertEqual(storage_accesses(text), 0, name)
-            self.assertGreater(storage_accesses(disassembly(self.folder, name, BARE)), 0, name)
-            self.assertLess(count(text, r"\n"), self.size_of(name))
+            self.assertGreater(storage_accesses(disassembly(name, BARE)), 0, name)
+            self.assertLess(count(text, r"\n"), size_of(name))
 
     def test_outputs_cost_where_they_are_wanted(self):
         for name in FILTERS:
-            self.assertGreater(self.size_of(name, outputs=True), self.size_of(name))
+            self.assertGreater(size_of(name, outputs=True), size_of(name))
 
     def test_fewer_clusters_are_less_code(self):
         mixed = {"MAPS": 2, "FILTERED_LOBES": "true"}
-        one = self.size_of("lobes", **mixed, SUBDIVISION=0)
-        eight = self.size_of("lobes", **mixed, SUBDIVISION=2)
+        one = size_of("lobes", **mixed, SUBDIVISION=0)
+        eight = size_of("lobes", **mixed, SUBDIVISION=2)
         self.assertLess(one, eight)
-        self.assertLess(self.size_of("lobes"), one)
+        self.assertLess(size_of("lobes"), one)
 
 
 if __name__ == "__main__":
     shaders, glslang, spirv_opt, spirv_dis = (Path(argument) for argument in sys.argv[1:5])
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    with tempfile.TemporaryDirectory() as folder:
+        scratch = Path(folder)
+        unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -195,11 +195,26 @@ static void files_that_include_each_other_end(void **state) {
 }
 
 #ifndef __SANITIZE_ADDRESS__ // half a minute there, for what other cases run as well
-/// The run-time compiler and the build generate the same code for every shader of the library.
+/// Whether its source is compiled with more macros, too.
+static bool is_between(const engine_shader_code *code) {
+    for (size_t i = 0; i < engine_embedded_shaders_count; i++) {
+        const engine_shader_code *other = &engine_embedded_shaders[i];
+        if (strcmp(code->source, other->source) == 0 &&
+            strcmp(code->substitute, other->substitute) == 0 &&
+            strlen(code->definitions) < strlen(other->definitions))
+            return code->definitions[0] != '\0';
+    }
+    return false;
+}
+
+/// The run-time compiler and the build generate the same code for the shaders of the library, of
+/// each source without macros and with all of them.
 static void library_shaders_are_as_the_build_made_them(void **state) {
     (void)state;
     for (size_t i = 0; i < engine_embedded_shaders_count; i++) {
         const engine_shader_code *code = &engine_embedded_shaders[i];
+        if (is_between(code))
+            continue;
         const engine_shader *shader = find(code->name);
         engine_shader embedded = {.name = code->name};
         assert_int_equal(engine_reflect(&recorder.host, code->words, code->size / 4, &embedded),
