@@ -9,9 +9,9 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 14, std430) writeonly buffer index_block { uint indices[]; };
 
-// With two segments, the line between the two triangles farthest from the largest edge runs from the
-// middle of that edge to the corner opposite. The middles of the other edges may still be at the
-// ends of the largest one: between the three middles would stand a wall.
+// With two segments, the line between the two triangles farthest from the largest edge runs from
+// the middle of that edge to the corner opposite. The middles of the other edges may still be at
+// the ends of the largest one: between the three middles would stand a wall.
 void turn_middle(uint number, vec4 sizes, inout ivec3 corners[3]) {
     int edge = sizes.x == sizes.w ? 0 : sizes.y == sizes.w ? 1 : 2;
     ivec3 first = ivec3(edge == 0, edge == 1, edge == 2), second = first.zxy, last = second.zxy;
