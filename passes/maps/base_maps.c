@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "passes/maps/seen_tiles.h"
+#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/specialisation.h"
@@ -74,7 +75,11 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     passes_base_maps_specialise(material, &list);
     if (kind->read_more)
         kind->read_more(context, material, pass, &list);
-    const struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+    struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+    if (kind->masked) {
+        extent.alpha = passes_mask_alpha(context->scene, material);
+        extent.cutoff = material->material->alpha_cutoff;
+    }
     const char *const shaders[] = {kind->shader, kind->seen_shader};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;

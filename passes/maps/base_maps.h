@@ -31,7 +31,7 @@ void passes_grid_map_make(const filter_context *context, const struct lobe_grid_
                           lobe_pass *pass, reduced_map *map);
 
 /// A map whose level 0 one compute pass makes from the base maps. Its push constants are the grid's
-/// width and height.
+/// width and height, and what of its alpha the material's mask keeps.
 typedef struct lobe_map_kind {
     const char *content;     ///< what it holds; part of its name
     const char *pass;        ///< name of the pass
@@ -39,6 +39,7 @@ typedef struct lobe_map_kind {
     const char *seen_shader; ///< its variant SEEN_TILES, see passes/maps/seen_tiles.h
     const char *binding;     ///< of the map, in that shader and in shading
     uint32_t layers;         ///< of the map
+    bool masked;             ///< its shader reads the push constants of the mask
     /// Binds and specialises what the shader reads beside the base maps. NULL: nothing.
     void (*read_more)(const filter_context *context, const device_material *material,
                       lobe_pass *pass, specialisation_list *list);

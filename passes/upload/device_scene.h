@@ -31,10 +31,11 @@ typedef struct image_metal {
 typedef struct colour_correlation {
     bool known; ///< false: no filter has asked
     bool follow_normals;
-    bool lie_alike;             ///< the maps did when it was found, without a mask
+    bool lie_alike;             ///< the maps did when it was found
     int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none
     uint32_t texel_versions[3]; ///< of these
     float normal_scale, height_scale, metallic;
+    float alpha, cutoff; ///< of its mask (passes/upload/colours/mask_alpha.h); without one, 0
 } colour_correlation;
 
 typedef struct device_material {

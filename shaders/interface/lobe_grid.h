@@ -9,11 +9,15 @@
 struct lobe_grid_constants {
     uint width; // of the base maps, texels: the larger of the normal and the width map
     uint height;
-    uint level; // of the map that is made, where a pass makes tiles of any level
+    uint level;   // of the map that is made, where a pass makes tiles of any level
+    float alpha;  // factor of the base colour map's alpha, where a pass reads that as a mask
+    float cutoff; // what is below is cut away
 };
-INTERFACE_SIZE(lobe_grid_constants, 12)
+INTERFACE_SIZE(lobe_grid_constants, 20)
 INTERFACE_OFFSET(lobe_grid_constants, height, 4)
 INTERFACE_OFFSET(lobe_grid_constants, level, 8)
+INTERFACE_OFFSET(lobe_grid_constants, alpha, 12)
+INTERFACE_OFFSET(lobe_grid_constants, cutoff, 16)
 
 // Points of a texel at which interpolated maps are read, and how far they are from its centre along
 // both axes, in texels: see lib/map/texel_point.glsl.

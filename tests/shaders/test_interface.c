@@ -123,6 +123,8 @@ static known_member known[] = {
     MEMBER(lobe_grid_constants, width, 0),
     MEMBER(lobe_grid_constants, height, 1),
     MEMBER(lobe_grid_constants, level, 2),
+    MEMBER(lobe_grid_constants, alpha, 3),
+    MEMBER(lobe_grid_constants, cutoff, 4),
     MEMBER(tile_level, first_mark, 0),
     MEMBER(tile_level, columns, 1),
     MEMBER(tile_level, width, 2),

@@ -35,7 +35,8 @@ static void add_level(const filter_context *context, uint32_t index,
     specialisation_list list = {.graph = context->graph};
     specialise_binning(context, material, partition, colour, &list);
     passes_specialise(&list, SPECIALISE_TEXEL_SAMPLES, samples);
-    const struct lobe_grid_constants constants = {partition->width, partition->height, level};
+    const struct lobe_grid_constants constants = {
+        .width = partition->width, .height = partition->height, .level = level};
     lobe_dispatch dispatch = {.shader = seen ? "filters/moments/binning_seen_tiles.comp"
                                              : "filters/moments/binning.comp",
                               .constants = &constants,

@@ -16,13 +16,15 @@ static void read_colours(const filter_context *context, const device_material *m
 }
 
 reduced_map passes_colour_normals(const filter_context *context, uint32_t index) {
-    static const lobe_map_kind kind = {
+    const bool masked = context->scene->materials[index].material->alpha_mask;
+    const lobe_map_kind kind = {
         .content = "normals of colours",
         .pass = "colour_normals",
         .shader = "maps/colour_normals.comp",
         .seen_shader = "maps/colour_normals_seen_tiles.comp",
         .binding = "colour_normal_map",
-        .layers = COLOUR_NORMALS_LAYERS,
+        .layers = masked ? COLOUR_NORMALS_LAYERS : COLOUR_NORMALS_KEPT,
+        .masked = masked,
         .read_more = read_colours,
     };
     return passes_lobe_map(context, index, &kind, LOBE_FORMAT_RGBA16_FLOAT);

@@ -1,28 +1,10 @@
 #include "passes/maps/colours/mask_coverage.h"
 
-#include <math.h>
 #include <stdio.h>
 
+#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/mask.h"
-
-/// The factor by which the vertices of all meshes with the material multiply its alpha.
-static float vertex_alpha(const device_scene *scene, uint32_t material) {
-    const lobe_material *source = scene->materials[material].material;
-    float least = INFINITY, largest = -INFINITY;
-    uint32_t next = scene->materials[material].first_instance;
-    while (next > 0) {
-        const device_instance *instance = &scene->instances[next - 1];
-        next = instance->next_of_material;
-        least = fminf(least, scene->measures[instance->mesh].least_alpha);
-        largest = fmaxf(largest, scene->measures[instance->mesh].largest_alpha);
-    }
-    // Below this, nothing is kept even where the map's alpha is 1.
-    float needed = source->alpha_cutoff / source->base_colour[3];
-    if (needed > least && needed < largest)
-        least = needed;
-    return least == largest ? least : 0.5f * (least + largest);
-}
 
 static struct mask_constants constants_of(const device_scene *scene, uint32_t index) {
     const device_material *material = &scene->materials[index];
@@ -33,7 +15,7 @@ static struct mask_constants constants_of(const device_scene *scene, uint32_t in
         .interpolated = !map->use->nearest,
         .repeats_u = map->use->wrap_u == LOBE_SCENE_WRAP_REPEAT,
         .repeats_v = map->use->wrap_v == LOBE_SCENE_WRAP_REPEAT,
-        .alpha = material->material->base_colour[3] * vertex_alpha(scene, index),
+        .alpha = passes_mask_alpha(scene, material),
         .cutoff = material->material->alpha_cutoff,
     };
 }

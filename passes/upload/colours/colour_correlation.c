@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/colours/material_colours.h"
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
@@ -31,17 +32,19 @@ static uint32_t place_of(uint32_t stratum, uint32_t strata, uint32_t extent, uin
     return place < extent ? place : extent - 1;
 }
 
-static void add_texel(const lobe_scene *scene, const device_material *material, uint32_t x,
-                      uint32_t y, patch_sums *patch) {
+/// What a mask cuts away counts as black: if its share goes with normals, so do colours.
+static void add_texel(const lobe_scene *scene, const device_material *material,
+                      const colour_correlation *inputs, uint32_t x, uint32_t y, patch_sums *patch) {
     material_colours colours;
     double normal[3], numbers[NUMBERS];
     if (!passes_material_colours_read(scene, material, x, y, &colours) ||
         !passes_material_normal_read(material, x + 0.5, y + 0.5, normal))
         return;
+    const bool kept = !(colours.alpha * (double)inputs->alpha < (double)inputs->cutoff);
     for (int i = 0; i < 2; i++)
         numbers[i] = normal[i];
     for (int k = 0; k < 3; k++)
-        numbers[2 + k] = colours.albedo[k] * (1 - colours.metallic);
+        numbers[2 + k] = kept ? colours.albedo[k] * (1 - colours.metallic) : 0;
     for (int i = 0; i < NUMBERS; i++)
         if (!isfinite(numbers[i]))
             return;
@@ -70,7 +73,8 @@ static double square_of_covariance(const patch_sums *patch, double texels) {
     return sum;
 }
 
-static bool follow_normals(const lobe_scene *scene, const device_material *material) {
+static bool follow_normals(const lobe_scene *scene, const device_material *material,
+                           const colour_correlation *inputs) {
     const lobe_grid grid = passes_lobe_grid(material);
     const double texels = fmax((double)grid.width * grid.height / (PATCHES * PATCHES), 1);
     double square = 0, colour = 0, count = 0;
@@ -79,7 +83,7 @@ static bool follow_normals(const lobe_scene *scene, const device_material *mater
         for (uint32_t i = 0; i < SAMPLES * SAMPLES; i++) {
             const uint32_t seed = 2 * (p * SAMPLES * SAMPLES + i);
             add_texel(
-                scene, material,
+                scene, material, inputs,
                 place_of(p % PATCHES * SAMPLES + i % SAMPLES, PATCHES * SAMPLES, grid.width, seed),
                 place_of(p / PATCHES * SAMPLES + i / SAMPLES, PATCHES * SAMPLES, grid.height,
                          seed + 1),
@@ -105,19 +109,22 @@ static bool are_readable(const lobe_scene *scene, const device_material *materia
 }
 
 /// What the answer depends on.
-static colour_correlation inputs_of(const device_material *material) {
+static colour_correlation inputs_of(const device_scene *scene, const device_material *material) {
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_NORMAL, MAP_WIDTH};
     const lobe_grid grid = passes_lobe_grid(material);
     const device_map *colours = &material->maps[MAP_BASE_COLOUR];
     colour_correlation inputs = {
         .known = true,
         .lie_alike = has_texels(colours) && has_texels(&material->maps[MAP_NORMAL]) &&
-                     !material->material->alpha_mask &&
                      passes_lobe_grid_shares_coordinates(&grid, colours->use),
         .images = {-1, -1, -1},
         .normal_scale = material->material->normal_scale,
         .height_scale = material->height_scale,
         .metallic = material->metallic};
+    if (material->material->alpha_mask) {
+        inputs.alpha = passes_mask_alpha(scene, material);
+        inputs.cutoff = material->material->alpha_cutoff;
+    }
     for (int i = 0; i < 3; i++) {
         if (material->maps[maps[i]].use)
             inputs.images[i] = material->maps[maps[i]].use->image;
@@ -130,17 +137,17 @@ static bool have_equal_inputs(const colour_correlation *a, const colour_correlat
     return memcmp(a->images, b->images, sizeof a->images) == 0 &&
            memcmp(a->texel_versions, b->texel_versions, sizeof a->texel_versions) == 0 &&
            a->normal_scale == b->normal_scale && a->height_scale == b->height_scale &&
-           a->metallic == b->metallic;
+           a->metallic == b->metallic && a->alpha == b->alpha && a->cutoff == b->cutoff;
 }
 
 bool passes_colours_follow_normals(const device_scene *scene, device_material *material) {
     const colour_correlation *before = &material->colours;
-    colour_correlation found = inputs_of(material);
+    colour_correlation found = inputs_of(scene, material);
     if (before->known && found.lie_alike == before->lie_alike &&
         (scene->keeps_conclusions || have_equal_inputs(&found, before)))
         return before->follow_normals;
     found.follow_normals = found.lie_alike && (!are_readable(scene->scene, material) ||
-                                               follow_normals(scene->scene, material));
+                                               follow_normals(scene->scene, material, &found));
     material->colours = found;
     return found.follow_normals;
 }

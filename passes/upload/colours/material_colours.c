@@ -45,6 +45,7 @@ bool passes_material_colours_read(const lobe_scene *scene, const device_material
     if (microfacet)
         colours->metallic =
             (double)material->metallic * (material->metallic_varies ? (double)width[2] : 1);
+    colours->alpha = (double)albedo[3];
     for (int i = 0; i < 3; i++) {
         colours->albedo[i] = (double)albedo[i];
         colours->specular[i] = microfacet

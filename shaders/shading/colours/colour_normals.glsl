@@ -7,6 +7,9 @@
 // Stein, 1981, Estimation of the Mean of a Multivariate Normal Distribution, lemma 1. For light
 // from all around the same holds with the gradient of irradiance in place of l and P.
 //
+// Under a mask all of these are means over what it keeps; filters have the normals of all texels,
+// so that what their means miss is added, too.
+//
 // Included after the filter. One that filters no maps has nothing to add.
 
 #ifdef FILTERED_MAPS_GLSL
@@ -23,16 +26,29 @@ layout(constant_id = SPECIALISE_COLOUR_NORMALS) const bool COLOUR_NORMALS = fals
 
 layout(LOBE_DESCRIPTOR(47)) uniform sampler2DArray colour_normal_map;
 
+// Below this share of a footprint, what a mask keeps of it is not known well in half floats.
+const float LEAST_KEPT = 1e-3;
+
 // Facets of closed surfaces are masked one by one, of which this knows nothing.
 const bool COLOURS_TURN = COLOUR_NORMALS && DIFFUSE && !CLOSED;
 
 struct colour_normals {
-    mat3 covariance; // columns: of each channel with the normal
-    vec3 colour;     // mean diffuse colour
-    vec3 mean;       // normal
-    float deviation; // of normals, in any direction across the mean
+    mat3 covariance;  // columns: of each channel with the normal
+    vec3 colour;      // mean diffuse colour
+    vec3 mean;        // normal, of what a mask keeps
+    vec3 mean_of_all; // of all texels, as filters have it
 };
 colour_normals drawn_colours;
+
+// Of normals of this mean, in any direction across it.
+float normal_deviation(vec3 mean) {
+    return sqrt(max(0.5 - 0.5 * dot(mean, mean), 1e-4));
+}
+
+// Mean of max(<n, l>, 0) over normals of this mean.
+float mean_cosine(vec3 mean, vec3 incoming) {
+    return mean_above_zero(dot(mean, incoming), normal_deviation(mean));
+}
 
 void fetch_colour_normals(surface_point surface) {
     if (!COLOURS_TURN)
@@ -43,14 +59,19 @@ void fetch_colour_normals(surface_point surface) {
         factor *= 1.0 - material.metallic;
     // A texel of level 0 has one colour and one normal.
     float share = may_see_level_0(lobe_map()) ? clamp(area.level, 0.0, 1.0) : 1.0;
-    vec3 mean = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN).xyz;
+    vec4 all = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN);
+    // Where points of the map saw nothing that is kept, nothing is known.
+    float per_kept = ALPHA_MASK ? (all.w > LEAST_KEPT ? 1.0 / all.w : 0.0) : 1.0;
+    vec3 mean = all.xyz;
+    if (ALPHA_MASK && per_kept > 0.0)
+        mean = per_kept * filtered_layer(colour_normal_map, area, COLOUR_NORMALS_KEPT).xyz;
     for (uint k = 0u; k < 3u; ++k) {
-        vec4 own = filtered_layer(colour_normal_map, area, k);
+        vec4 own = per_kept * filtered_layer(colour_normal_map, area, k);
         drawn_colours.covariance[k] = share * factor[k] * (own.xyz - own.w * mean);
         drawn_colours.colour[k] = factor[k] * own.w;
     }
-    drawn_colours.mean = mean;
-    drawn_colours.deviation = sqrt(max(0.5 - 0.5 * dot(mean, mean), 1e-4));
+    drawn_colours.mean = mix(all.xyz, mean, share);
+    drawn_colours.mean_of_all = all.xyz;
 }
 
 // `reflected`: reflectance times cosine of the means. Where the filter has less than the mean of
@@ -64,10 +85,12 @@ vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
         let_through *=
             1.0 - fresnel_schlick(vec3(0.04), vec3(1.0),
                                   dot(incoming, half_vector(incoming, surface.outgoing)));
-    float cosine = dot(drawn_colours.mean, incoming), deviation = drawn_colours.deviation;
-    vec3 growth =
-        normal_below(cosine / deviation) * let_through * (incoming * drawn_colours.covariance);
-    vec3 means = mean_above_zero(cosine, deviation) * let_through * drawn_colours.colour;
+    vec3 mean = drawn_colours.mean, colour = let_through * drawn_colours.colour;
+    float facing = normal_below(dot(mean, incoming) / normal_deviation(mean));
+    vec3 growth = facing * let_through * (incoming * drawn_colours.covariance);
+    vec3 means = mean_cosine(drawn_colours.mean_of_all, incoming) * colour;
+    if (ALPHA_MASK)
+        growth += mean_cosine(mean, incoming) * colour - means;
     vec3 loss = min(growth + max(means - reflected, 0.0), 0.0);
     return max(reflected + max(growth, loss), 0.0);
 }
@@ -97,6 +120,10 @@ vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
         along * (axis * drawn_colours.covariance) +
         irradiance_growth(surface, size, axis, first) * (first * drawn_colours.covariance) +
         irradiance_growth(surface, size, axis, second) * (second * drawn_colours.covariance);
+    if (ALPHA_MASK)
+        reflected += (mean_irradiance(surface, drawn_colours.mean) -
+                      mean_irradiance(surface, drawn_colours.mean_of_all)) *
+                     drawn_colours.colour;
     return max(reflected, 0.0);
 }
 #endif

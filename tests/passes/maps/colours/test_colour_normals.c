@@ -110,6 +110,108 @@ static void check_suns(fixture *f, const char *filter, double follow, uint32_t f
     lobe_image_free(&normals);
 }
 
+/// Kept is what is less steep, and rises to one side. Of texels, a mask keeps all or nothing.
+static bool is_kept(const field_texel *texel) {
+    return texel->normal[0] > -0.35 && texel->normal[2] > 0.75;
+}
+
+/// Gives the field's colours an alpha of 0.8 where they are kept, else of 0.2, and counts the
+/// first.
+static double mask_field(lobe_scene *scene, const lobe_image *normals, double follow) {
+    float *colours = (float *)scene->images[scene->materials[0].base_colour_map.image].image.texels;
+    double count = 0;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const field_texel texel = texel_at(normals, i, follow);
+        colours[4 * i + 3] = is_kept(&texel) ? 0.8f : 0.2f;
+        count += is_kept(&texel);
+    }
+    scene->materials[0].alpha_mask = true;
+    return count;
+}
+
+/// By the mean of the pixels that show the surface. Of colours that do not follow normals, the mask
+/// itself chooses normals.
+static void check_mask(fixture *f, const char *filter, double follow) {
+    enum { WIDTH = 16, PIXELS = WIDTH * WIDTH };
+    static const double angles[] = {-60, 0, 60};
+    const picture_request request = {.filter = filter, .width = WIDTH, .height = WIDTH};
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
+    lobe_scene *scene = field(&normals, follow, 1);
+    const double kept = mask_field(scene, &normals, follow);
+    scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    scene_end(scene);
+    for (int i = 0; i < 3; i++) {
+        const double angle = angles[i] * M_PI / 180;
+        double expected[3] = {0}, found[3] = {0}, shown = 0;
+        for (uint32_t k = 0; k < EXTENT * EXTENT; k++) {
+            const field_texel texel = texel_at(&normals, k, follow);
+            const double cosine = texel.normal[0] * sin(angle) + texel.normal[2] * cos(angle);
+            for (int j = 0; j < 3 && is_kept(&texel); j++)
+                expected[j] += texel.colour[j] * fmax(cosine, 0) / (M_PI * kept);
+        }
+        shine_from(scene, angle);
+        lobe_frame frame = draw_scene(f, scene, &request);
+        for (uint32_t k = 0; k < PIXELS; k++) {
+            const float *pixel = pixel_at(&frame.radiance, k % WIDTH, k / WIDTH);
+            shown += pixel[3] > 0;
+            for (int j = 0; j < 3; j++)
+                found[j] += (double)pixel[j];
+        }
+        for (int j = 0; j < 3; j++)
+            if (!(fabs(found[j] / shown - expected[j]) <= 0.04 * expected[j]))
+                fail_msg("%s under a mask, %g degrees, channel %d: %.6g instead of %.6g", filter,
+                         angles[i], j, found[j] / shown, expected[j]);
+        lobe_frame_free(&frame);
+    }
+    lobe_scene_destroy(&scene);
+    lobe_image_free(&normals);
+}
+
+static void assert_like_new(fixture *f, const lobe_scene *scene, const picture_request *request) {
+    static const uint32_t first = 0;
+    const lobe_scene_changes changes = {.materials = &first, .material_count = 1};
+    assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+    lobe_frame changed = draw(f, request);
+    hold_scene(f, scene);
+    lobe_frame fresh = draw(f, request);
+    for (uint32_t i = 0; i < request->width; i++)
+        assert_memory_equal(pixel_at(&changed.radiance, i, 0), pixel_at(&fresh.radiance, i, 0),
+                            4 * sizeof(float));
+    lobe_frame_free(&changed);
+    lobe_frame_free(&fresh);
+}
+
+/// A mask, and another cutoff.
+static void masks_may_change(void **state) {
+    const picture_request request = {.filter = "toksvig", .width = 8, .height = 1};
+    lobe_image normals = random_normal_map(EXTENT, EXTENT, 0.6, 141);
+    lobe_scene *scene = field(&normals, 1, 1);
+    lobe_material *material = &scene->materials[0];
+    mask_field(scene, &normals, 1);
+    material->alpha_mask = false;
+    scene_add_sun(scene, (double[]){0.5, 1, 0}, 1);
+    scene_end(scene);
+    hold_scene(*state, scene);
+    lobe_frame unmasked = draw(*state, &request);
+    material->alpha_mask = true;
+    material->alpha_cutoff = 0.1f;
+    assert_like_new(*state, scene, &request);
+    material->alpha_cutoff = 0.5f;
+    assert_like_new(*state, scene, &request);
+    material->alpha_mask = false;
+    assert_like_new(*state, scene, &request);
+    lobe_frame_free(&unmasked);
+    hold_scene(*state, NULL);
+    lobe_scene_destroy(&scene);
+    lobe_image_free(&normals);
+}
+
+static void masks_keep_colours_with_their_normals(void **state) {
+    check_mask(*state, "toksvig", 1);
+    check_mask(*state, "toksvig", 0);
+    check_mask(*state, "moments", -1);
+}
+
 /// From 60 degrees the product of means has a fifth less red on one side, and more on the other.
 /// Colours may be finer than normals.
 static void light_from_a_side_shows_its_colours(void **state) {
@@ -214,6 +316,8 @@ static void colours_that_do_not_follow_need_no_map(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_from_a_side_shows_its_colours),
+        cmocka_unit_test(masks_keep_colours_with_their_normals),
+        cmocka_unit_test(masks_may_change),
         cmocka_unit_test(low_light_takes_nothing_that_is_missing),
         cmocka_unit_test(skies_show_their_side),
         cmocka_unit_test(colours_that_do_not_follow_need_no_map),
