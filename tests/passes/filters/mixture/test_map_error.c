@@ -386,7 +386,7 @@ static void materials_that_change_are_fitted_better(void **state) {
                       moments.centre, moments.corner);
         sums[0] += mixture.centre + mixture.corner;
         sums[1] += moments.centre + moments.corner;
-        assert_true(mixture.centre + mixture.corner <= 0.6 * (moments.centre + moments.corner));
+        assert_true(mixture.centre + mixture.corner <= 0.65 * (moments.centre + moments.corner));
         lobe_image_free(&map.lobes);
         lobe_image_free(&colours);
     }
