@@ -37,13 +37,14 @@ float view_depth() {
     return dot(frame.axis.xyz, interpolated_position) - frame.axis.w;
 }
 
-// The slope of the triangle, which faces the viewer, over the plane of the tangent frame. A steep
-// triangle of a surface whose normals are interpolated may lean over: it counts as upright.
+// The slope of the triangle, which faces the viewer, over the plane of the tangent frame. Triangles
+// that stand upright or lean over are no slopes of a relief but close what vertices leave open that
+// slide along a patch's edge: from a slope of 7 on they count as less steep, from 20 on as level.
 vec2 triangle_slope(surface_point surface) {
     vec3 normal = normalize(cross(dFdx(interpolated_position), dFdy(interpolated_position)) *
                             surface.world_from_tangent);
     normal = dot(normal, surface.outgoing) < 0.0 ? -normal : normal;
-    return -normal.xy / max(normal.z, 0.02);
+    return smoothstep(0.05, 0.15, normal.z) / max(normal.z, 0.05) * -normal.xy;
 }
 
 // The back's frame is the front's reversed, and so are heights: slopes are the same over both.
