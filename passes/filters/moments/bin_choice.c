@@ -85,6 +85,7 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
                                       const lobe_survey *survey, const lobe_allocator *allocator) {
     enum { LOBES = MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT * LOBE_MATERIAL_MAXIMUM_LOBES };
     const bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
+    const uint32_t lights = count_lights(survey);
     footprint_set *set = lobe_allocate(
         allocator, 1,
         sizeof *set + ((size_t)MATERIAL_PATCHES * LOBES + survey->count) * sizeof *set->lobes);
@@ -92,7 +93,7 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
         footprint *patch = &set->all[i];
         patch->lobes = set->lobes + (size_t)i * LOBES;
         patch->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
-        patch->light_count = count_lights(survey);
+        patch->light_count = lights;
         if (i < MATERIAL_PATCHES) {
             read_patch(scene, material, i, patch);
         } else {
