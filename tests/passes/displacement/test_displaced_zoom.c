@@ -168,14 +168,8 @@ static void print_flight(fixture *f, const char *name, lobe_image map, double sc
 /// Slopes of a root mean square of 0.5 each way, as those of the relief made here.
 static void print_flight_over_file(fixture *f, const char *path) {
     lobe_image map = sample_relief_load(path, &f->host);
-    float *heights = map.texels, low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < map.width * map.height; i++) {
-        low = fminf(low, heights[4 * i]);
-        high = fmaxf(high, heights[4 * i]);
-    }
-    for (uint32_t i = 0; i < map.width * map.height; i++)
-        heights[4 * i] = (heights[4 * i] - low) / (high - low);
-    print_flight(f, path, map, sqrt(0.5) * (double)(high - low) / map.width);
+    const double range = sample_relief_normalise(&map);
+    print_flight(f, path, map, sqrt(0.5) * range / map.width);
 }
 
 static void print_flights(int count, char **names) {

@@ -194,14 +194,8 @@ static void print_budgets(fixture *f, const char *name, const lobe_image *map, d
 
 /// Heights in texels' widths.
 static void print_relief(fixture *f, const char *name, lobe_image map) {
-    float *texels = map.texels, low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < map.width * map.height; i++) {
-        low = fminf(low, texels[4 * i]);
-        high = fmaxf(high, texels[4 * i]);
-    }
-    for (uint32_t i = 0; i < map.width * map.height; i++)
-        texels[4 * i] = (texels[4 * i] - low) / (high - low);
-    print_budgets(f, name, &map, (double)(high - low) / map.width);
+    const double range = sample_relief_normalise(&map);
+    print_budgets(f, name, &map, range / map.width);
     lobe_image_free(&map);
 }
 

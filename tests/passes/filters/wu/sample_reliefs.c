@@ -124,3 +124,14 @@ lobe_image sample_relief_load(const char *path, const lobe_host *host) {
     scale_to_slope(&map, 1);
     return map;
 }
+
+double sample_relief_normalise(lobe_image *map) {
+    float *texels = map->texels, low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < map->width * map->height; i++) {
+        low = fminf(low, texels[4 * i]);
+        high = fmaxf(high, texels[4 * i]);
+    }
+    for (uint32_t i = 0; i < map->width * map->height; i++)
+        texels[4 * i] = (texels[4 * i] - low) / (high - low);
+    return (double)(high - low);
+}

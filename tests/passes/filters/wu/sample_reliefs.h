@@ -19,6 +19,9 @@ lobe_image sample_relief_noise(uint32_t extent, double wavelength, uint64_t seed
 /// of 1. Asserts that it can be read.
 lobe_image sample_relief_load(const char *path, const lobe_host *host);
 
+/// Moves and scales heights to [0, 1]. Returns by how much they differed.
+double sample_relief_normalise(lobe_image *map);
+
 /// The rms of a relief's slopes.
 double sample_relief_slope(const lobe_image *map);
 
