@@ -429,9 +429,9 @@ def test_filters_follow_each_other():
         return missing()
     names = [line.split(":")[0] for line in succeeds("filters").stdout.splitlines()
              if ": " in line and not line.startswith(" ")]
-    other = Window(screen(), "checkerboard", "--size", TEXT, "--filter", names[0])
+    other = Window(screen(), "checkerboard", "--size", TEXT, "--filter", names[-1])
     other.do("key", "Tab")
-    for name in names[1:3]:
+    for name in names[:2]:  # the first follows the last
         other.do("key", "f")
         difference = largest_difference(seen(), rendered("--filter", name))
         check(difference <= 1, f"{name}: differs by {difference} of 255")
