@@ -93,7 +93,7 @@ static void fill_camera(const filter_context *context, struct displacement_const
 
 /// Room for a surface that fills the picture: for each square of the spacing up to eight triangles
 /// and six vertices, as in small patches, and three to four times that for what is seen at an angle
-/// or outside; and some for shadows. One triangle for each patch.
+/// or outside; and some for shadows. Each patch has one triangle at least.
 static void fill_room(const filter_context *context, const displaced_surface *surface,
                       struct displacement_constants *constants) {
     const double pixels = (double)context->view.width * context->view.height;

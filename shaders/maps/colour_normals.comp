@@ -5,8 +5,8 @@
 // The finest level of a map of how diffuse colours go with normals: of grooves whose left walls are
 // red and whose right walls are green, light from the left shows more red.
 //
-// Factors of the material are left out, so that new ones rebuild nothing. What a mask cuts away has
-// neither colour nor normal; that depends on the factor of alpha.
+// Factors of the material are left out, so that new ones rebuild nothing; not that of alpha under a
+// mask: what it cuts away counts neither in colours nor in normals.
 
 #include "maps/base_maps.glsl"
 #include "interface/lobe_grid.h"

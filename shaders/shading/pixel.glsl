@@ -38,8 +38,8 @@ float view_depth() {
 }
 
 // The slope of the triangle, which faces the viewer, over the plane of the tangent frame. Triangles
-// that stand upright or lean over are no slopes of a relief but close what vertices leave open that
-// slide along a patch's edge: from a slope of 7 on they count as less steep, from 20 on as level.
+// that stand upright or lean over are not slopes of the relief: they close gaps left by vertices
+// that slide along a patch's edge. Above a slope of 7 they count as less steep, above 20 as level.
 vec2 triangle_slope(surface_point surface) {
     vec3 normal = normalize(cross(dFdx(interpolated_position), dFdy(interpolated_position)) *
                             surface.world_from_tangent);
