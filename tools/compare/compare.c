@@ -5,6 +5,8 @@
 
 #include <cjson/cJSON.h>
 
+#include <lobe/exr.h>
+
 #include "tools/cli/console.h"
 #include "tools/cli/options.h"
 #include "tools/cli/subcommand.h"
@@ -34,6 +36,42 @@ static lobe_result read_images(compare_job *job) {
     return LOBE_OK;
 }
 
+static const char *const part_names[COMPARE_PART_COUNT + 1] = {"all", "inside", "silhouettes",
+                                                               NULL};
+
+static lobe_result read_depth(compare_job *job, lobe_image *depth) {
+    const compared *reference = reference_of(job);
+    lobe_result result = LOBE_ERROR_NOT_FOUND;
+    if (reference->input.high_dynamic_range)
+        result = lobe_exr_read(reference->path, "depth", &(lobe_host){0}, depth);
+    if (result != LOBE_OK)
+        lobe_host_log(&job->host, LOBE_LOG_ERROR,
+                      "%s: --part needs the reference's depth, and it has no layer of that name: "
+                      "render it with --aov to an .exr",
+                      reference->path);
+    return result;
+}
+
+static lobe_result find_part(compare_job *job) {
+    if (job->part == COMPARE_PART_ALL)
+        return LOBE_OK;
+    lobe_image depth;
+    lobe_result result = read_depth(job, &depth);
+    if (result != LOBE_OK)
+        return result;
+    result = silhouettes_find_part(&depth, job->part, &job->host, &job->part_pixels);
+    size_t count = (size_t)depth.width * depth.height;
+    for (size_t index = 0; result == LOBE_OK && index < count; index++)
+        job->part_count += job->part_pixels[index];
+    lobe_image_free(&depth);
+    if (result == LOBE_OK && job->part_count == 0) {
+        lobe_host_log(&job->host, LOBE_LOG_ERROR, "%s: --part %s has no pixel",
+                      reference_of(job)->path, part_names[job->part]);
+        result = LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    return result;
+}
+
 static lobe_result measure(compare_job *job) {
     const compared *reference = reference_of(job);
     for (size_t index = 0; index < job->test_count; index++) {
@@ -43,6 +81,7 @@ static lobe_result measure(compare_job *job) {
             .reference_name = reference->path,
             .high_dynamic_range = reference->input.high_dynamic_range,
             .pixels_per_degree = job->pixels_per_degree,
+            .pixels = job->part_pixels,
         };
         lobe_result result =
             error_metrics_measure(&test->input.image, &reference->input.image, &parameters,
@@ -86,6 +125,10 @@ static cJSON *describe_test(const compare_job *job, const compared *test) {
     int size[2] = {(int)test->input.image.width, (int)test->input.image.height};
     cJSON_AddItemToObject(object, "size", cJSON_CreateIntArray(size, 2));
     cJSON_AddBoolToObject(object, "high_dynamic_range", test->input.high_dynamic_range);
+    if (job->part != COMPARE_PART_ALL) {
+        cJSON_AddStringToObject(object, "part", part_names[job->part]);
+        cJSON_AddNumberToObject(object, "pixels", (double)job->part_count);
+    }
     for (int index = 0; index < ERROR_METRICS_COUNT; index++)
         cJSON_AddNumberToObject(object, error_metrics_name(index),
                                 error_metrics_value(&test->metrics, index));
@@ -154,6 +197,8 @@ static int execute(compare_job *job) {
     if (result == LOBE_OK)
         result = compare_check_crop(job);
     if (result == LOBE_OK)
+        result = find_part(job);
+    if (result == LOBE_OK)
         result = measure(job);
     if (result == LOBE_OK && job->difference_path != NULL)
         result = compare_write_difference(job);
@@ -165,12 +210,21 @@ static int execute(compare_job *job) {
         lobe_image_free(&job->images[index].input.image);
         lobe_image_free(&job->images[index].flip_errors);
     }
+    free(job->part_pixels);
     return result == LOBE_OK ? 0 : 1;
 }
 
 static int run(int argc, char **argv) {
     compare_job job = {.host = console_host(false)};
     const option options[] = {
+        {.name = "part",
+         .kind = OPTION_CHOICE,
+         .argument = "PART",
+         .summary = "measure only along the reference's silhouettes, or only what is inside them\n"
+                    "and no background; the reference must have a depth layer (render --aov)",
+         .target = &job.part,
+         .fallback = "all",
+         .choices = part_names},
         {.name = "diff",
          .kind = OPTION_TEXT,
          .argument = "FILE.png",

@@ -7,6 +7,7 @@
 
 #include "tools/compare/error_metrics.h"
 #include "tools/compare/image_input.h"
+#include "tools/compare/silhouettes.h"
 
 /// What `lobe compare` works on, and the pictures it makes.
 
@@ -23,6 +24,9 @@ typedef struct compare_job {
     lobe_host host;
     const char *difference_path, *side_by_side_path, *crop_text;
     bool json;
+    uint32_t part;     ///< a compare_part
+    bool *part_pixels; ///< of the reference; NULL: all
+    size_t part_count; ///< how many
     double exposure, pixels_per_degree, magnification;
     uint32_t zoom;
     uint32_t crop[4];                           ///< x, y, width, height; all 0: the whole image

@@ -69,11 +69,14 @@ static void add(error_sums *sums, double test, double reference) {
     sums->peak = fmax(sums->peak, reference);
 }
 
-static error_sums sum_errors(const lobe_image *test, const lobe_image *reference, bool linear) {
+static error_sums sum_errors(const lobe_image *test, const lobe_image *reference,
+                             const bool *pixels, bool linear) {
     error_sums sums = {0};
     const float *a = test->texels, *b = reference->texels;
     size_t count = (size_t)test->width * test->height;
     for (size_t index = 0; index < count; index++) {
+        if (pixels != NULL && !pixels[index])
+            continue;
         for (size_t channel = 4 * index; channel < 4 * index + 3; channel++) {
             if (linear)
                 add(&sums, a[channel], b[channel]);
@@ -107,6 +110,13 @@ static void derive(const error_sums *sums, bool linear, error_metrics *metrics) 
     };
 }
 
+static void clear_others(lobe_image *errors, const bool *pixels) {
+    size_t count = (size_t)errors->width * errors->height;
+    for (size_t index = 0; index < count; index++)
+        if (!pixels[index])
+            ((float *)errors->texels)[index] = 0.0f;
+}
+
 lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *reference,
                                   const error_metrics_parameters *parameters, const lobe_host *host,
                                   error_metrics *metrics, lobe_image *flip_errors) {
@@ -116,7 +126,8 @@ lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *refe
     lobe_result result = check_images(test, reference, parameters, host);
     if (result != LOBE_OK)
         return result;
-    error_sums sums = sum_errors(test, reference, parameters->high_dynamic_range);
+    error_sums sums =
+        sum_errors(test, reference, parameters->pixels, parameters->high_dynamic_range);
     derive(&sums, parameters->high_dynamic_range, metrics);
     double pixels_per_degree = parameters->pixels_per_degree > 0.0 ? parameters->pixels_per_degree
                                                                    : FLIP_PIXELS_PER_DEGREE;
@@ -125,7 +136,9 @@ lobe_result error_metrics_measure(const lobe_image *test, const lobe_image *refe
                  : flip_low_dynamic_range(test, reference, pixels_per_degree, host, &errors);
     if (result != LOBE_OK)
         return result;
-    metrics->flip = flip_mean(&errors);
+    metrics->flip = flip_mean(&errors, parameters->pixels);
+    if (parameters->pixels != NULL)
+        clear_others(&errors, parameters->pixels);
     if (flip_errors != NULL)
         *flip_errors = errors;
     else

@@ -292,11 +292,15 @@ lobe_result flip_high_dynamic_range(const lobe_image *test, const lobe_image *re
     return result;
 }
 
-double flip_mean(const lobe_image *errors) {
-    size_t count = (size_t)errors->width * errors->height;
+double flip_mean(const lobe_image *errors, const bool *pixels) {
+    size_t size = (size_t)errors->width * errors->height, count = 0;
     const float *texels = errors->texels;
     double sum = 0.0;
-    for (size_t index = 0; index < count; index++)
+    for (size_t index = 0; index < size; index++) {
+        if (pixels != NULL && !pixels[index])
+            continue;
         sum += texels[index];
+        count++;
+    }
     return sum / (double)count;
 }

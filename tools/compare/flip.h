@@ -1,6 +1,8 @@
 #ifndef TOOLS_COMPARE_FLIP_H
 #define TOOLS_COMPARE_FLIP_H
 
+#include <stdbool.h>
+
 #include <lobe/host.h>
 #include <lobe/image.h>
 #include <lobe/result.h>
@@ -27,7 +29,8 @@ lobe_result flip_high_dynamic_range(const lobe_image *test, const lobe_image *re
                                     double pixels_per_degree, const lobe_host *host,
                                     lobe_image *errors);
 
-/// Mean of all texels of an R32_FLOAT image.
-double flip_mean(const lobe_image *errors);
+/// Mean of an R32_FLOAT image's texels: of those that `pixels`, row by row, names, at least one, or
+/// of all if it is NULL.
+double flip_mean(const lobe_image *errors, const bool *pixels);
 
 #endif

@@ -14,7 +14,7 @@ static lobe_image wrap(float *texels, uint32_t width, uint32_t height) {
 }
 
 static error_metrics measure(const lobe_image *test, const lobe_image *reference, bool high) {
-    error_metrics_parameters parameters = {"test", "reference", high, 0.0};
+    error_metrics_parameters parameters = {"test", "reference", high, 0.0, NULL};
     error_metrics metrics;
     assert_int_equal(error_metrics_measure(test, reference, &parameters, NULL, &metrics, NULL),
                      LOBE_OK);
@@ -52,6 +52,27 @@ static void low_dynamic_range_is_measured_as_it_is_shown(void **state) {
     assert_true(near(metrics.psnr, 10.0 * log10(3.0 / (difference * difference))));
 }
 
+static void only_the_chosen_pixels_are_measured(void **state) {
+    (void)state;
+    float a[12] = {1.5f, 2.0f, 0.0f, 1.0f, 0.0f, 1.0f, 4.0f, 1.0f, 3.0f, 3.0f, 3.0f, 1.0f};
+    float b[12] = {1.0f, 2.0f, 0.5f, 1.0f, 9.0f, 9.0f, 9.0f, 1.0f, 3.0f, 3.0f, 3.0f, 1.0f};
+    lobe_image test = wrap(a, 3, 1), reference = wrap(b, 3, 1);
+    const bool pixels[3] = {true, false, true};
+    error_metrics_parameters parameters = {"test", "reference", true, 0.0, pixels};
+    error_metrics metrics;
+    lobe_image errors;
+    assert_int_equal(error_metrics_measure(&test, &reference, &parameters, NULL, &metrics, &errors),
+                     LOBE_OK);
+    assert_true(near(metrics.rmse, sqrt(0.5 / 6.0)));
+    assert_true(near(metrics.relative_l2, sqrt(0.5 / (1.0 + 4.0 + 0.25 + 27.0))));
+    assert_true(near(metrics.mean_ratio, 12.5 / 12.5));
+    assert_true(near(metrics.psnr, 10.0 * log10(9.0 / (0.5 / 6.0))));
+    const float *flip = errors.texels;
+    assert_true(near(metrics.flip, (flip[0] + (double)flip[2]) / 2.0));
+    assert_true(flip[1] == 0.0f);
+    lobe_image_free(&errors);
+}
+
 static void equal_images_have_no_error(void **state) {
     (void)state;
     float a[4] = {0.5f, 7.0f, 0.0f, 1.0f};
@@ -87,11 +108,11 @@ static void the_error_map_has_the_mean_that_is_told(void **state) {
         b[index] = (float)(index % 5) * 0.1f;
     }
     lobe_image test = wrap(a, 4, 4), reference = wrap(b, 4, 4), errors;
-    error_metrics_parameters parameters = {"test", "reference", true, 40.0};
+    error_metrics_parameters parameters = {"test", "reference", true, 40.0, NULL};
     error_metrics metrics;
     assert_int_equal(error_metrics_measure(&test, &reference, &parameters, NULL, &metrics, &errors),
                      LOBE_OK);
-    assert_true(near(flip_mean(&errors), metrics.flip));
+    assert_true(near(flip_mean(&errors, NULL), metrics.flip));
     parameters.pixels_per_degree = 100.0;
     error_metrics farther;
     assert_int_equal(error_metrics_measure(&test, &reference, &parameters, NULL, &farther, NULL),
@@ -103,7 +124,7 @@ static void the_error_map_has_the_mean_that_is_told(void **state) {
 static void refuse(const lobe_image *test, const lobe_image *reference, const char *const *causes) {
     log_recorder recorder;
     log_recorder_start(&recorder);
-    error_metrics_parameters parameters = {"a.exr", "b.exr", true, 0.0};
+    error_metrics_parameters parameters = {"a.exr", "b.exr", true, 0.0, NULL};
     error_metrics metrics;
     lobe_image errors;
     assert_int_equal(
@@ -146,6 +167,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_are_those_of_the_definitions),
         cmocka_unit_test(low_dynamic_range_is_measured_as_it_is_shown),
+        cmocka_unit_test(only_the_chosen_pixels_are_measured),
         cmocka_unit_test(equal_images_have_no_error),
         cmocka_unit_test(a_black_reference_leaves_nothing_to_divide_by),
         cmocka_unit_test(the_error_map_has_the_mean_that_is_told),

@@ -1,5 +1,6 @@
 """What `lobe render` writes and prints."""
 
+import json
 import sys
 
 import tap
@@ -111,6 +112,30 @@ def test_layers():
     layers = ["normal.X", "normal.Y", "normal.Z", "depth.Z", "lobes.count", "level.MIP"]
     check(sorted(channels) == sorted(["R", "G", "B", "A", *layers]), str(channels))
     check(all(channels[name] == "float" for name in layers), str(channels))
+
+
+def test_errors_along_silhouettes():
+    folder = fresh_folder("silhouettes")
+    png_write(folder / "paint_albedo.png", 8, 8, (200, 40, 40))
+    ball = ["--material", folder, "--carrier", "sphere", "--size", "48x48", "--light",
+            "point:0,2,1:20,20,20"]
+    succeeds("render", *ball, "--filter", "direct", "-o", folder / "a.exr")
+    succeeds("render", *ball, "--filter", "reference", "--aov", "-o", folder / "b.exr")
+
+    def measure(*options):
+        return json.loads(succeeds("compare", folder / "a.exr", folder / "b.exr", "--json",
+                                   *options).stdout)
+
+    whole = measure()
+    inside, along = measure("--part", "inside"), measure("--part", "silhouettes")
+    check("part" not in whole and inside["part"] == "inside", str(inside))
+    check(100 < along["pixels"] < inside["pixels"] < 48 * 48 - along["pixels"], str(along))
+    # One sample is wrong where the ball ends, and the background is equal.
+    check(along["relative_l2"] > 4 * inside["relative_l2"], f"{along} {inside}")
+    squares = sum(part["rmse"]**2 * part["pixels"] for part in (inside, along))
+    check(abs(squares / (whole["rmse"]**2 * 48 * 48) - 1) < 1e-6, f"{squares} {whole}")
+    result = fails("compare", folder / "b.exr", folder / "a.exr", "--part", "inside")
+    check("a.exr: --part needs the reference's depth" in result.stderr, report(result))
 
 
 def test_motion():
