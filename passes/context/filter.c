@@ -81,13 +81,15 @@ static void warn_of_waves(const lobe_filter *filter, const lobe_scene *scene,
                           scene->materials[i].name, filter->name);
 }
 
-void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, const lobe_host *host) {
-    warn_of_waves(filter, scene, host);
-    for (size_t i = 0; filter->ignores && i < scene->material_count; i++) {
-        const char *limit = filter->ignores(&scene->materials[i]);
+void passes_filter_warn(const lobe_filter *filter, const device_scene *scene,
+                        const lobe_host *host) {
+    warn_of_waves(filter, scene->scene, host);
+    for (size_t i = 0; filter->ignores && i < scene->scene->material_count; i++) {
+        const device_material *material = &scene->materials[i];
+        const char *limit = material->constants ? filter->ignores(material) : NULL;
         if (limit)
-            lobe_host_log(host, LOBE_LOG_WARNING, "%s: material '%s', filter '%s': %s", scene->name,
-                          scene->materials[i].name, filter->name, limit);
+            lobe_host_log(host, LOBE_LOG_WARNING, "%s: material '%s', filter '%s': %s",
+                          scene->scene->name, material->material->name, filter->name, limit);
     }
 }
 

@@ -111,9 +111,10 @@ struct lobe_filter {
     /// NULL: the filter has no maps.
     void (*build)(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance);
-    /// What the filter cannot represent of a material, as a phrase for a warning; NULL: nothing.
+    /// What the filter cannot represent of a material that is on the device, as a phrase for a
+    /// warning; NULL: nothing.
     /// The pointer itself may be NULL.
-    const char *(*ignores)(const lobe_material *material);
+    const char *(*ignores)(const device_material *material);
 };
 
 /// All filters, NULL-terminated: the only list of them (passes/filters/table.c).
@@ -124,8 +125,9 @@ void passes_appearance_bind(filtered_appearance *appearance, const char *name,
                             lobe_resource resource, lobe_sampler sampler);
 void passes_appearance_specialise(filtered_appearance *appearance, uint32_t id, uint32_t bits);
 
-/// Warns about each material that the filter cannot fully represent.
-void passes_filter_warn(const lobe_filter *filter, const lobe_scene *scene, const lobe_host *host);
+/// Warns about each material on the device that the filter cannot fully represent.
+void passes_filter_warn(const lobe_filter *filter, const device_scene *scene,
+                        const lobe_host *host);
 
 /// Adds a name to a list for a message, after a comma unless it is the first.
 void passes_append_name(char *names, size_t size, const char *name);

@@ -2,6 +2,7 @@
 
 #include <assert.h>
 
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/specialisation.h"
 
 static_assert(LOBE_MATERIAL_MICROFACET == MODEL_MICROFACET, "one list of models");
@@ -44,7 +45,7 @@ void passes_lobes_specialise(const device_material *material, uint32_t map_bits,
     passes_specialise(list, SPECIALISE_DISTRIBUTION, source->distribution);
     passes_specialise(list, SPECIALISE_LOBE_COUNT, material->lobe_count);
     passes_specialise(list, SPECIALISE_MAPS, map_bits);
-    passes_specialise(list, SPECIALISE_SECOND_COORDINATES, material->second_coordinates);
+    passes_specialise(list, SPECIALISE_SECOND_COORDINATES, passes_second_coordinates(material));
     passes_specialise(list, SPECIALISE_NORMALS, material->maps[MAP_NORMAL].normals);
     passes_specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
     passes_specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);

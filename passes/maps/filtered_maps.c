@@ -202,7 +202,7 @@ static bool is_like_lobes(const device_material *material, uint32_t map) {
     const lobe_grid grid = passes_lobe_grid(material);
     const device_map *own = &material->maps[map];
     return own->use && own->width == grid.width && own->height == grid.height &&
-           passes_lobe_grid_shares_coordinates(&grid, own->use);
+           passes_lobe_grid_shares_coordinates(material, map);
 }
 
 /// Bits of the maps whose level 0 some pixel may see. The normal map counts with the size of the

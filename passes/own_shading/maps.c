@@ -93,7 +93,7 @@ static lobe_result fill(lobe_maps *maps, lobe_device *device) {
     if (result != LOBE_OK)
         return result;
     const filter_context context = context_of(maps, &images);
-    passes_filter_warn(maps->filter, &maps->materials->scene, host);
+    passes_filter_warn(maps->filter, maps->uploaded, host);
     return passes_environment_light_check(&context);
 }
 

@@ -75,7 +75,7 @@ void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
 void passes_instance_maps_warn(const rendering *r) {
     const lobe_filter *filter = r->context.filter;
     if (r->renderer->reported_filter != filter)
-        passes_filter_warn(filter, r->context.scene->scene, &r->renderer->host);
+        passes_filter_warn(filter, r->context.scene, &r->renderer->host);
     r->renderer->reported_filter = filter;
     const uint32_t choice = passes_knob_choice(&r->context, &passes_knob_shadows);
     if (choice != r->renderer->reported_shadows)

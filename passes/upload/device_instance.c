@@ -131,6 +131,17 @@ bool passes_device_scene_reserve_instances(device_scene *scene, size_t count) {
     return true;
 }
 
+/// Where this changes, maps no longer lie alike as they did: all of them are made anew.
+static void find_equal_sets(const device_scene *scene, device_material *material) {
+    const bool before = material->equal_sets;
+    material->equal_sets = material->second_coordinates != 0;
+    for (uint32_t next = material->first_instance; material->equal_sets && next > 0;
+         next = scene->instances[next - 1].next_of_material)
+        material->equal_sets = scene->measures[scene->instances[next - 1].mesh].equal_sets;
+    material->version += material->equal_sets != before;
+    material->parameter_version += material->equal_sets != before;
+}
+
 void passes_device_scene_link_instances(device_scene *scene) {
     scene->instance_count = scene->scene->instance_count;
     for (size_t i = 0; i < scene->scene->material_count; i++)
@@ -144,4 +155,7 @@ void passes_device_scene_link_instances(device_scene *scene) {
         *first = (uint32_t)i + 1;
         scene->measures[instance->mesh].has_instances = true;
     }
+    for (size_t i = 0; i < scene->scene->material_count; i++)
+        if (scene->materials[i].first_instance > 0)
+            find_equal_sets(scene, &scene->materials[i]);
 }

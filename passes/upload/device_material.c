@@ -318,6 +318,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .height_normal_texels = before.height_normal_texels,
         .height = source->height_map,
         .height_scale = source->height_scale,
+        .equal_sets = before.equal_sets,
         .colours = before.colours,
         .version = before.version,
         .parameter_version = before.parameter_version,

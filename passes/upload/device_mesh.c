@@ -70,8 +70,20 @@ static void measure_density(const lobe_mesh *mesh, mesh_measures *measures) {
     }
 }
 
+/// Vertices that the host gives on the device may differ in each frame.
+static bool has_equal_sets(const lobe_mesh *mesh) {
+    bool equal =
+        mesh->has_texture_coordinates[0] && mesh->has_texture_coordinates[1] && !mesh->on_device;
+    for (size_t i = 0; equal && i < mesh->vertex_count; i++) {
+        const float(*sets)[2] = mesh->vertices[i].texture_coordinates;
+        equal = sets[0][0] == sets[1][0] && sets[0][1] == sets[1][1];
+    }
+    return equal;
+}
+
 static mesh_measures measure(const lobe_mesh *mesh, uint32_t version) {
     mesh_measures measures = {.least_density = {INFINITY, INFINITY},
+                              .equal_sets = has_equal_sets(mesh),
                               .least_alpha = INFINITY,
                               .largest_alpha = -INFINITY,
                               .vertex_count = mesh->vertex_count,

@@ -52,7 +52,11 @@ typedef struct device_material {
     device_map maps[MAP_COUNT];
     uint32_t map_bits;           ///< bit MAP_...: the material has one
     uint32_t second_coordinates; ///< bit MAP_...: the map uses the second set
-    uint32_t first_instance;     ///< 1 + index of the first that has it; 0: none
+    /// On all meshes that have the material, the second set of texture coordinates equals the first
+    /// (mesh_measures), so that a map lies on them alike by either. Found where a map uses the
+    /// second set, else false.
+    bool equal_sets;
+    uint32_t first_instance; ///< 1 + index of the first that has it; 0: none
     /// Normals made from the height map (passes/upload/heights/), in place of a normal map; NULL:
     /// none.
     lobe_texture *height_normals;
@@ -102,6 +106,7 @@ typedef struct mesh_measures {
     /// coordinates (the root of their area) per metre (the root of the triangle's area) over all
     /// triangles.
     float least_density[2];
+    bool equal_sets; ///< it has both sets, and they are equal at all vertices, as far as is known
     float least_alpha, largest_alpha; ///< of the vertices' colours
     float minimum[3], maximum[3];     ///< of their positions, before any deformation
     size_t vertex_count, index_count;

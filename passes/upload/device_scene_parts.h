@@ -38,8 +38,8 @@ lobe_result passes_device_scene_check_instance(const lobe_scene *scene, size_t i
 /// what follows from its transform, mesh and maps.
 lobe_result passes_device_scene_upload_instance(device_scene *scene, size_t index,
                                                 const lobe_host *host);
-/// Takes over the scene's number of instances, and lets each material and mesh find those that have
-/// it, after instances were uploaded.
+/// Takes over the scene's number of instances, lets each material and mesh find those that have it,
+/// and finds what materials conclude from their meshes, after instances were uploaded.
 void passes_device_scene_link_instances(device_scene *scene);
 
 #endif

@@ -45,6 +45,10 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
     return use && use->image >= 0 ? use : NULL;
 }
 
+uint32_t passes_second_coordinates(const device_material *material) {
+    return material->equal_sets ? 0 : material->second_coordinates;
+}
+
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;
@@ -104,16 +108,23 @@ bool passes_lobe_grid_varies(const lobe_grid *grid) {
     return grid->width * grid->height > 1;
 }
 
-bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use) {
-    return grid->use && use->texture_coordinates == grid->use->texture_coordinates &&
-           memcmp(use->transform, grid->use->transform, sizeof use->transform) == 0;
+bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b) {
+    const lobe_texture_use *first = material->maps[a].use, *second = material->maps[b].use;
+    const uint32_t sets = passes_second_coordinates(material);
+    return (sets >> a & 1) == (sets >> b & 1) &&
+           memcmp(first->transform, second->transform, sizeof first->transform) == 0;
+}
+
+bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32_t map) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    return grid.use && passes_maps_share_coordinates(material, map, grid.map);
 }
 
 bool passes_lies_under_lobes(const device_material *material, uint32_t map) {
     const lobe_grid grid = passes_lobe_grid(material);
     const device_map *own = &material->maps[map];
     return !own->use || (own->width <= grid.width && own->height <= grid.height &&
-                         passes_lobe_grid_shares_coordinates(&grid, own->use));
+                         passes_lobe_grid_shares_coordinates(material, map));
 }
 
 static float channel(const lobe_image *image, const unsigned char *texel, uint32_t index) {

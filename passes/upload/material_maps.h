@@ -11,6 +11,10 @@ bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *mat
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
                                                 const lobe_material *material, uint32_t map);
 
+/// Bit MAP_...: the map is read by the second set of texture coordinates. Where both sets are
+/// equal, all maps are read by the first.
+uint32_t passes_second_coordinates(const device_material *material);
+
 /// The texture of a material's map, or the texels that the host gives in this frame; one white
 /// texel if it has no such map.
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
@@ -35,8 +39,11 @@ typedef struct lobe_grid {
 lobe_grid passes_lobe_grid(const device_material *material);
 /// Whether lobes can differ from texel to texel, so that there is something to filter.
 bool passes_lobe_grid_varies(const lobe_grid *grid);
-/// Whether a map has the same layout on the surface as the grid, whatever its number of texels.
-bool passes_lobe_grid_shares_coordinates(const lobe_grid *grid, const lobe_texture_use *use);
+/// Whether two maps that a material has are laid out on the surface alike, whatever their numbers
+/// of texels: by one set of texture coordinates, or by two equal ones, with the same transform.
+bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b);
+/// Whether a map that a material has is laid out on the surface as its grid is.
+bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32_t map);
 /// Whether a map of a material, if it has that, lies as the grid does, and is no finer.
 bool passes_lies_under_lobes(const device_material *material, uint32_t map);
 

@@ -162,11 +162,10 @@ static void build(const filter_context *context, size_t instance, const void *pr
                                  has_relief && drawn.near);
 }
 
-static const char *ignores(const lobe_material *material) {
-    if (material->height_map.image < 0 || material->height_scale == 0)
+static const char *ignores(const device_material *material) {
+    if (!passes_has_relief(material))
         return NULL;
-    const bool flat_colours = material->base_colour_map.image >= 0 &&
-                              !passes_lies_on_relief(material, &material->base_colour_map);
+    const bool flat_colours = !passes_lies_on_relief(material, MAP_BASE_COLOUR);
     if (material->model == LOBE_MATERIAL_MICROFACET)
         return flat_colours ? "what facets mirror is lost where it meets others; colours do not "
                               "vary with heights, whose texture coordinates are other ones"

@@ -6,6 +6,7 @@
 #include "passes/context/material_specialisation.h"
 #include "passes/filters/displaced/relief.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/upload/material_maps.h"
 
 /// What passes between the relief and the map share, of one window at a time.
 typedef struct transfer_build {
@@ -35,23 +36,21 @@ static struct transfer_constants constants_of(const transfer_build *build, uint3
 // ---------------------------------------------------------------------------------------------
 // Colours
 
-bool passes_lies_on_relief(const lobe_material *material, const lobe_texture_use *use) {
-    const lobe_texture_use *heights = &material->height_map;
-    return use->texture_coordinates == heights->texture_coordinates &&
-           memcmp(use->transform, heights->transform, sizeof use->transform) == 0 &&
-           use->wrap_u == LOBE_SCENE_WRAP_REPEAT && use->wrap_v == LOBE_SCENE_WRAP_REPEAT;
+bool passes_lies_on_relief(const device_material *material, uint32_t map) {
+    const lobe_texture_use *use = material->maps[map].use;
+    return !use || (passes_maps_share_coordinates(material, map, MAP_HEIGHT) &&
+                    use->wrap_u == LOBE_SCENE_WRAP_REPEAT && use->wrap_v == LOBE_SCENE_WRAP_REPEAT);
 }
 
 bool passes_has_coloured_relief(const device_material *material) {
-    const device_map *colours = &material->maps[MAP_BASE_COLOUR],
-                     *widths = &material->maps[MAP_WIDTH];
+    const device_map *colours = &material->maps[MAP_BASE_COLOUR];
     const bool colours_vary = colours->use && colours->width * colours->height > 1;
     if (!passes_has_relief(material) || (!colours_vary && !material->metallic_varies) ||
         (material->model == LOBE_MATERIAL_MICROFACET && !material->metallic_varies &&
          material->metallic >= 1))
         return false;
-    return (!colours->use || passes_lies_on_relief(material->material, colours->use)) &&
-           (!material->metallic_varies || passes_lies_on_relief(material->material, widths->use));
+    return passes_lies_on_relief(material, MAP_BASE_COLOUR) &&
+           (!material->metallic_varies || passes_lies_on_relief(material, MAP_WIDTH));
 }
 
 /// At how many points, along a side, colours are read in a facet so that none of a map is missed.

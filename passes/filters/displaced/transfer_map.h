@@ -13,8 +13,9 @@ typedef struct transfer_map {
     lobe_resource closure; ///< struct transfer_closure_constants
 } transfer_map;
 
-/// Whether a map lies on the surface as the material's heights do, and repeats as they do.
-bool passes_lies_on_relief(const lobe_material *material, const lobe_texture_use *use);
+/// Whether a map of a material with heights, if it has that, lies on the surface as the heights do,
+/// and repeats as they do.
+bool passes_lies_on_relief(const device_material *material, uint32_t map);
 /// Whether a material's diffuse colour varies over its relief in such a way that colours can be
 /// found by place: the map of colours, and that of metal, lie on the surface as the heights do.
 bool passes_has_coloured_relief(const device_material *material);

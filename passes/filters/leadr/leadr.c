@@ -29,7 +29,7 @@ static const filter_knob *const knobs[] = {
     &passes_knob_normal_mapping, NULL,
 };
 
-static const char *ignores(const lobe_material *material) {
+static const char *ignores(const device_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes are merged into one that covers their spread, in their mean colour; they "
                "are assumed to include masking";

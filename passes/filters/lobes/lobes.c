@@ -266,8 +266,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
 }
 
 /// One mixture represents all lobes of a material, in the colour of their sum.
-static const char *ignores(const lobe_material *material) {
-    if (has_one_hue(material))
+static const char *ignores(const device_material *material) {
+    if (has_one_hue(material->material))
         return NULL;
     return "lobes of different hues get their mean hue";
 }

@@ -49,7 +49,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_base_lobes_build(context, material, appearance);
 }
 
-static const char *ignores(const lobe_material *material) {
+static const char *ignores(const device_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes get their mean colour; they are assumed to include masking";
     if (material->distribution == LOBE_DISTRIBUTION_GGX)

@@ -146,8 +146,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
 }
 
-static const char *ignores(const lobe_material *material) {
-    if (material->height_map.image < 0 || material->height_scale == 0)
+static const char *ignores(const device_material *material) {
+    if (!passes_has_relief(material))
         return NULL;
     return material->model == LOBE_MATERIAL_MICROFACET
                ? "what facets mirror is lost where it meets others; colours do not vary with "

@@ -15,9 +15,7 @@ static bool has_texels(const device_map *map) {
 
 /// Whether a map lies as the lobes do.
 static bool lies_like_lobes(const device_material *material, uint32_t map) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    return has_texels(&material->maps[map]) &&
-           passes_lobe_grid_shares_coordinates(&grid, material->maps[map].use);
+    return has_texels(&material->maps[map]) && passes_lobe_grid_shares_coordinates(material, map);
 }
 
 uint32_t passes_metal_means_of(const device_material *material) {

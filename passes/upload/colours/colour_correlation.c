@@ -114,12 +114,11 @@ static bool are_readable(const lobe_scene *scene, const device_material *materia
 /// What the answer depends on.
 static colour_correlation inputs_of(const device_scene *scene, const device_material *material) {
     static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_NORMAL, MAP_WIDTH};
-    const lobe_grid grid = passes_lobe_grid(material);
-    const device_map *colours = &material->maps[MAP_BASE_COLOUR];
+    const bool have_texels =
+        has_texels(&material->maps[MAP_BASE_COLOUR]) && has_texels(&material->maps[MAP_NORMAL]);
     colour_correlation inputs = {
         .known = true,
-        .lie_alike = has_texels(colours) && has_texels(&material->maps[MAP_NORMAL]) &&
-                     passes_lobe_grid_shares_coordinates(&grid, colours->use),
+        .lie_alike = have_texels && passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR),
         .images = {-1, -1, -1},
         .normal_scale = material->material->normal_scale,
         .height_scale = material->height_scale,
