@@ -112,8 +112,7 @@ struct lobe_filter {
     void (*build)(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance);
     /// What the filter cannot represent of a material that is on the device, as a phrase for a
-    /// warning; NULL: nothing.
-    /// The pointer itself may be NULL.
+    /// warning; NULL: nothing. The pointer itself may be NULL.
     const char *(*ignores)(const device_material *material);
 };
 
