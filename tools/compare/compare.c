@@ -41,14 +41,24 @@ static const char *const part_names[COMPARE_PART_COUNT + 1] = {"all", "inside", 
 
 static lobe_result read_depth(compare_job *job, lobe_image *depth) {
     const compared *reference = reference_of(job);
+    const lobe_image *radiance = &reference->input.image;
     lobe_result result = LOBE_ERROR_NOT_FOUND;
     if (reference->input.high_dynamic_range)
         result = lobe_exr_read(reference->path, "depth", &(lobe_host){0}, depth);
-    if (result != LOBE_OK)
-        lobe_host_log(&job->host, LOBE_LOG_ERROR,
-                      "%s: --part needs the reference's depth, and it has no layer of that name: "
-                      "render it with --aov to an .exr",
-                      reference->path);
+    if (result == LOBE_OK && depth->width == radiance->width && depth->height == radiance->height)
+        return LOBE_OK;
+    if (result == LOBE_OK) {
+        lobe_host_log(&job->host, LOBE_LOG_ERROR, "%s: --part: the layer depth is %ux%u, not %ux%u",
+                      reference->path, depth->width, depth->height, radiance->width,
+                      radiance->height);
+        lobe_image_free(depth);
+        return LOBE_ERROR_INVALID_ARGUMENT;
+    }
+    lobe_host_log(&job->host, LOBE_LOG_ERROR, "%s: --part needs the reference's depth: %s",
+                  reference->path,
+                  result == LOBE_ERROR_NOT_FOUND
+                      ? "it has no layer of that name; render it with --aov to an .exr"
+                      : lobe_result_message(result));
     return result;
 }
 

@@ -24,12 +24,10 @@ static bool is_edge(const lobe_image *depth, int64_t x, int64_t y) {
 }
 
 /// The picture's samples are not in the middles of its pixels: an edge reaches the next one.
-static bool is_near_edge(const lobe_image *depth, int64_t x, int64_t y) {
+static void mark_around(const lobe_image *depth, int64_t x, int64_t y, bool *pixels) {
     for (int64_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < depth->height; j++)
         for (int64_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < depth->width; i++)
-            if (is_edge(depth, i, j))
-                return true;
-    return false;
+            pixels[j * depth->width + i] = true;
 }
 
 lobe_result silhouettes_find_part(const lobe_image *depth, compare_part part, const lobe_host *host,
@@ -37,17 +35,20 @@ lobe_result silhouettes_find_part(const lobe_image *depth, compare_part part, co
     *pixels = NULL;
     if (part == COMPARE_PART_ALL)
         return LOBE_OK;
-    *pixels = malloc((size_t)depth->width * depth->height * sizeof **pixels);
-    if (*pixels == NULL) {
+    bool *found = calloc((size_t)depth->width * depth->height, sizeof *found);
+    if (found == NULL) {
         lobe_host_log(host, LOBE_LOG_ERROR, "out of memory looking for silhouettes");
         return LOBE_ERROR_OUT_OF_MEMORY;
     }
     for (int64_t y = 0; y < depth->height; y++)
+        for (int64_t x = 0; x < depth->width; x++)
+            if (is_edge(depth, x, y))
+                mark_around(depth, x, y, found);
+    for (int64_t y = 0; part == COMPARE_PART_INSIDE && y < depth->height; y++)
         for (int64_t x = 0; x < depth->width; x++) {
-            bool silhouette = is_near_edge(depth, x, y);
-            (*pixels)[y * depth->width + x] = part == COMPARE_PART_SILHOUETTES
-                                                  ? silhouette
-                                                  : !silhouette && inverse_depth(depth, x, y) > 0.0;
+            bool *pixel = &found[y * depth->width + x];
+            *pixel = !*pixel && inverse_depth(depth, x, y) > 0.0;
         }
+    *pixels = found;
     return LOBE_OK;
 }

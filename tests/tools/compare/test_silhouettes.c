@@ -10,8 +10,10 @@
 static float texels[4 * SIZE * SIZE];
 static const lobe_image depth = {LOBE_FORMAT_RGBA32_FLOAT, SIZE, SIZE, texels};
 
-static void set_depth(int x, int y, double value) {
-    texels[4 * (y * SIZE + x)] = (float)value;
+static void set_depths(double (*depth_at)(int x, int y)) {
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            texels[4 * (y * SIZE + x)] = (float)depth_at(x, y);
 }
 
 static size_t count_part(compare_part part) {
@@ -24,50 +26,63 @@ static size_t count_part(compare_part part) {
     return count;
 }
 
+/// Depths from 1 to 24: a plane seen at about 89 degrees.
+static double seen_flat(int x, int y) {
+    (void)x;
+    return SIZE / (y + 1.0);
+}
+
 static void a_plane_has_none(void **state) {
     (void)state;
-    // Seen at about 89 degrees: depths from 1 to 24.
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            set_depth(x, y, SIZE / (y + 1.0));
+    set_depths(seen_flat);
     assert_int_equal(count_part(COMPARE_PART_SILHOUETTES), 0);
     assert_int_equal(count_part(COMPARE_PART_INSIDE), SIZE * SIZE);
 }
 
+static double ending_at_8(int x, int y) {
+    (void)y;
+    return x < 8 ? 0.0 : 3.0;
+}
+
 static void the_border_to_the_background_is_found(void **state) {
     (void)state;
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            set_depth(x, y, x < 8 ? 0.0 : 3.0);
+    set_depths(ending_at_8);
     // Columns 7 and 8 are beside the border; 6 and 9 beside those.
     assert_int_equal(count_part(COMPARE_PART_SILHOUETTES), 4 * SIZE);
     assert_int_equal(count_part(COMPARE_PART_INSIDE), (SIZE - 10) * SIZE);
 }
 
+static double stepping_at_12(int x, int y) {
+    (void)x;
+    return y < 12 ? 2.0 : 4.0;
+}
+
 static void one_thing_before_another_is_found(void **state) {
     (void)state;
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            set_depth(x, y, y < 12 ? 2.0 : 4.0);
+    set_depths(stepping_at_12);
     assert_int_equal(count_part(COMPARE_PART_SILHOUETTES), 4 * SIZE);
     assert_int_equal(count_part(COMPARE_PART_INSIDE), (SIZE - 4) * SIZE);
 }
 
+/// Steps of 1 % of the depth between neighbours are relief.
+static double rough(int x, int y) {
+    return 5.0 + 0.05 * ((x + y) % 2);
+}
+
 static void small_relief_has_none(void **state) {
     (void)state;
-    // Steps of 1 % of the depth between neighbours are relief.
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            set_depth(x, y, 5.0 + 0.05 * ((x + y) % 2));
+    set_depths(rough);
     assert_int_equal(count_part(COMPARE_PART_SILHOUETTES), 0);
+}
+
+static double strange(int x, int y) {
+    const double values[] = {NAN, INFINITY, -INFINITY, -1.0, 0.0};
+    return values[(x + 3 * y) % 5];
 }
 
 static void what_is_no_depth_is_background(void **state) {
     (void)state;
-    const float strange[] = {NAN, INFINITY, -INFINITY, -1.0f, 0.0f};
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            set_depth(x, y, strange[(x + 3 * y) % 5]);
+    set_depths(strange);
     assert_int_equal(count_part(COMPARE_PART_SILHOUETTES), 0);
     assert_int_equal(count_part(COMPARE_PART_INSIDE), 0);
 }
