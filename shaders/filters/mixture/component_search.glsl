@@ -2,16 +2,23 @@
 #define COMPONENT_SEARCH_GLSL
 
 // Search by a group for the components that are closest to the lobes of a rectangle of texels: from
-// components far apart, from k-means, and from more components of which some are merged.
+// components far apart, from k-means, and from more components of which some are merged; where
+// lobes differ in width, a second time with more weight on widths.
 
 #define COMPONENTS 7 // MIXTURE_MAXIMUM_COMPONENTS
 #include "filters/mixture/group_fit.glsl"
 #include "lib/lobe/plane_gaussian.glsl"
 
 const uint ROUNDS = 25;
-const uint MERGED = 2; // the third start
-const uint STARTS = 3;
+const uint MERGED = 2; // the third kind of start
+const uint KINDS = 3;
+const uint STARTS = BIN_WIDTHS ? 2u * KINDS : KINDS;
 const uint GIVEN = STARTS; // components are there already, and stay as they are
+
+// Of squared distances along widths, in the second half of the starts. Where sharp and broad lobes
+// are at one place, a component that has started with both hardly ever parts them.
+const float WIDTH_WEIGHT = 10.0;
+
 const float LEAST_GAIN = 0.02; // of the squared lobes, that it must be better than the others
 
 shared mixture_component kept[BINS];
@@ -140,12 +147,15 @@ void merge_components(mixture_units units) {
 // groups, which are best together is found from all groups: what is nearest is often something
 // sharp and frequent that should stay alone.
 float fit_from(sampled_area area, uint start, mixture_units units) {
-    uint count = start == MERGED ? COMPONENTS : BINS;
+    uint kind = start % KINDS;
+    bool is_merged = start != GIVEN && kind == MERGED;
+    uint count = is_merged ? COMPONENTS : BINS;
+    units.width_weight = start < KINDS ? 1.0 : WIDTH_WEIGHT;
     set_aside(count);
     for (int j = 0; j < (start == GIVEN ? 0 : int(count)); ++j)
-        add_component(area, j, start == MERGED ? FAR_APART : start, units);
-    uint rounds = start == GIVEN ? 0u : start == MERGED ? 2u * ROUNDS : ROUNDS;
-    uint by_distance = start == K_MEANS ? ROUNDS_OF_K_MEANS : 1u;
+        add_component(area, j, is_merged ? FAR_APART : kind, units);
+    uint rounds = start == GIVEN ? 0u : is_merged ? 2u * ROUNDS : ROUNDS;
+    uint by_distance = kind == K_MEANS ? ROUNDS_OF_K_MEANS : 1u;
     for (uint round = 0; round < rounds; ++round) {
         if (round == ROUNDS)
             merge_components(units);
@@ -158,12 +168,13 @@ float fit_from(sampled_area area, uint start, mixture_units units) {
 
 // Keeps the components that a start leads to if their error is below `least`, which it lowers then.
 bool keep_better(sampled_area area, uint start, mixture_units units, inout float least) {
-    if (start == MERGED && (BINS == 1u || BINS == COMPONENTS))
+    bool is_merged = start != GIVEN && start % KINDS == MERGED;
+    if (is_merged && (BINS == 1u || BINS == COMPONENTS))
         return false;
     float error = fit_from(area, start, units);
     // Texels' own mixtures start better at components of the other starts, unless these miss
     // a group of lobes.
-    if (start == MERGED)
+    if (is_merged)
         error += LEAST_GAIN * abs(least);
     if (error >= least)
         return false;

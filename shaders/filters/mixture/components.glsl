@@ -43,8 +43,9 @@ const float MOST_CORRELATION = 0.999;
 // The material's places and widths (moment_bins.h and gaussian_mixture.h).
 struct mixture_units {
     vec2 origin;
-    float deviation; // usual one of base lobes
-    bool is_round;   // components are, while lobes are shared out among them
+    float deviation;    // usual one of base lobes
+    bool is_round;      // components are, while lobes are shared out among them
+    float width_weight; // of squared distances along widths, where nearness decides
 };
 
 struct mixture_sample {
@@ -117,15 +118,20 @@ void find_shares(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixtur
         shares[j] /= sum;
 }
 
+float squared_distance(mixture_sample lobe, vec3 place, mixture_units units) {
+    vec3 d = lobe.place - place;
+    return dot(d.xy, d.xy) + units.width_weight * d.z * d.z;
+}
+
 // Each sample wholly to the nearest component.
 void find_nearest(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixture_sample lobe,
-                  out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
+                  mixture_units units, out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
     int nearest = 0;
     float least = 1e30;
     for (int j = 0; j < COMPONENTS; ++j) {
-        vec3 d = lobe.place - densities[j].mean;
-        if (dot(d, d) < least) {
-            least = dot(d, d);
+        float square = squared_distance(lobe, densities[j].mean, units);
+        if (square < least) {
+            least = square;
             nearest = j;
         }
     }

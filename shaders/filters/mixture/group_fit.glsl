@@ -106,7 +106,7 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
         mixture_sample lobe = area_sample(area, i, units);
         float shares[MIXTURE_MAXIMUM_COMPONENTS];
         if (nearest)
-            find_nearest(own, lobe, shares);
+            find_nearest(own, lobe, units, shares);
         else
             find_shares(own, lobe, shares);
         for (int j = 0; j < COMPONENTS; ++j)
@@ -124,14 +124,12 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
 
 // How much a sample should become component `count`: its squared distance from the nearest other.
 // For k-means a random number decides in proportion to it.
-float key_of(mixture_sample lobe, uint index, int count, uint start) {
+float key_of(mixture_sample lobe, uint index, int count, uint start, mixture_units units) {
     float nearest = 1e30;
-    for (int j = 0; j < count; ++j) {
-        vec3 d = lobe.place - components[j].mean;
-        nearest = min(nearest, dot(d, d));
-    }
+    for (int j = 0; j < count; ++j)
+        nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
     if (start == FAR_APART)
-        return count == 0 ? dot(lobe.place, lobe.place) : nearest;
+        return count == 0 ? squared_distance(lobe, vec3(0.0), units) : nearest;
     float number = hashed_number(index * MOMENT_MAXIMUM_BINS + uint(count) + 77u);
     return (count == 0 ? 1.0 : nearest) / -log(max(number, 1e-7));
 }
@@ -142,7 +140,7 @@ void add_component(sampled_area area, int count, uint start, mixture_units units
     vec3 best_place = vec3(0.0);
     for (uint i = thread(); i < sample_count(area); i += THREADS) {
         mixture_sample lobe = area_sample(area, i, units);
-        float key = key_of(lobe, i, count, start);
+        float key = key_of(lobe, i, count, start, units);
         if (key > best) {
             best = key;
             best_place = lobe.place;

@@ -59,7 +59,7 @@ void add_lobe(inout level_sums sums, ivec2 texel, int i, float weight, bool near
     mixture_sample lobe = read_sample(texel, i, units);
     float shares[MIXTURE_MAXIMUM_COMPONENTS];
     if (nearest)
-        find_nearest(densities, lobe, shares);
+        find_nearest(densities, lobe, units, shares);
     else
         find_shares(densities, lobe, shares);
     vec4 colour = vec4(0.0);
@@ -120,11 +120,9 @@ void start_apart(level_box box, mixture_units units,
         for (uint y = box.low.y; y < box.high.y; ++y) {
             for (uint x = box.low.x; x < box.high.x; ++x) {
                 mixture_sample lobe = read_sample(ivec2(x, y), int((x + y) % LOBE_COUNT), units);
-                float nearest = count == 0 ? dot(lobe.place, lobe.place) : 1e30;
-                for (int j = 0; j < count; ++j) {
-                    vec3 d = lobe.place - components[j].mean;
-                    nearest = min(nearest, dot(d, d));
-                }
+                float nearest = count == 0 ? squared_distance(lobe, vec3(0.0), units) : 1e30;
+                for (int j = 0; j < count; ++j)
+                    nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
                 if (nearest > farthest) {
                     farthest = nearest;
                     place = lobe.place;

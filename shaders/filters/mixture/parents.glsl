@@ -13,7 +13,7 @@ layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_con
 mixture_units units_of_map() {
     bool is_round =
         SHAPE == MIXTURE_SHAPE_AUTOMATIC ? binning.hats.w > 0.5 : SHAPE == MIXTURE_SHAPE_ROUND;
-    return mixture_units(binning.hats.xy, binning.hats.z, is_round);
+    return mixture_units(binning.hats.xy, binning.hats.z, is_round, 1.0);
 }
 
 mixture_component parent_component(ivec2 texel, int index) {

@@ -17,7 +17,7 @@ layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
 
 // Along each side: of all texels, so many are sampled. lavapipe leaves all loops of a thread when
 // it has gone through them 65535 times in all.
-const uint CELLS = LOBE_COUNT > 2u ? 32u : 64u;
+const uint CELLS = LOBE_COUNT > 2u ? 32u : LOBE_COUNT == 2u && BIN_WIDTHS ? 48u : 64u;
 
 mixture_extremes find_extremes() {
     mixture_extremes own = mixture_extremes(vec4(1e30), vec4(1e30));
@@ -45,7 +45,7 @@ mixture_extremes find_extremes() {
 mixture_units find_units(mixture_extremes least) {
     vec2 low = least.places.xy, high = -least.places.zw;
     float sharpness = -least.lobes.x, variance = -least.lobes.y;
-    return mixture_units(0.5 * (low + high), sqrt(sqrt(variance) / sharpness), false);
+    return mixture_units(0.5 * (low + high), sqrt(sqrt(variance) / sharpness), false, 1.0);
 }
 
 void write_units(mixture_extremes least, mixture_units units) {

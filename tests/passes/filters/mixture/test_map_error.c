@@ -393,6 +393,21 @@ static void materials_that_change_are_fitted_better(void **state) {
     assert_true(sums[0] <= 0.4 * sums[1]);
 }
 
+/// Paint and the metal in its cracks have one mean normal, but not one width: four components do
+/// without parting these, six must not.
+static void lobes_of_two_widths_at_one_place_are_parted(void **state) {
+    static const int cracked_paint = 18;
+    lobe_image colours;
+    measured_map map = {changing_material(cracked_paint, EXTENT, &colours), &colours};
+    const map_error four = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
+    const map_error six = measure(*state, &map, 8, "mixture", (const char *[6]){"components=6"});
+    print_message("# four %.4f %.4f, six %.4f %.4f\n", four.centre, four.corner, six.centre,
+                  six.corner);
+    assert_true(six.centre + six.corner <= 0.5 * (four.centre + four.corner));
+    lobe_image_free(&map.lobes);
+    lobe_image_free(&colours);
+}
+
 /// Slopes of stones and of the flat joints between them are no Gaussian.
 static void several_lobes_of_slopes_halve_the_error_of_one(void **state) {
     measured_map map = {.lobes = stones()};
@@ -408,6 +423,7 @@ int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_blend),
         cmocka_unit_test(materials_that_change_are_fitted_better),
+        cmocka_unit_test(lobes_of_two_widths_at_one_place_are_parted),
         cmocka_unit_test(several_lobes_of_slopes_halve_the_error_of_one),
     };
     if (count < 2)
