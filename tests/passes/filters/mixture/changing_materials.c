@@ -252,7 +252,7 @@ static changing_texel planks(double x, double y) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// A third list, made when the first two had been measured: nothing was changed after it
+// A third list, made when the first two had been measured: no constant is chosen on it
 
 /// Knurled metal, worn flat in a band, where it shines.
 static changing_texel knurled_metal(double x, double y) {
