@@ -27,17 +27,37 @@ void passes_base_maps_read(const filter_context *context, const device_material 
                                                                      : material->map_constants)});
 }
 
+static void read_map_or_white(const filter_context *context, const device_material *material,
+                              uint32_t map, const char *name, bool reads, lobe_pass *pass) {
+    if (reads)
+        passes_base_map_read(context, material, map, name, pass);
+    else
+        lobe_pass_read(pass, &(lobe_binding){.name = name,
+                                             .resource = lobe_graph_import_texture(
+                                                 context->graph, context->scene->white)});
+}
+
+void passes_base_colour_read(const filter_context *context, const device_material *material,
+                             bool reads, lobe_pass *pass) {
+    read_map_or_white(context, material, MAP_BASE_COLOUR, "base_colour_map",
+                      reads || passes_lobes_are_masked(material), pass);
+}
+
 void passes_colour_maps_read(const filter_context *context, const device_material *material,
                              bool reads, lobe_pass *pass) {
-    static const uint32_t maps[] = {MAP_BASE_COLOUR, MAP_SPECULAR};
-    static const char *const names[] = {"base_colour_map", "specular_map"};
-    const lobe_resource white = lobe_graph_import_texture(context->graph, context->scene->white);
-    for (int i = 0; i < 2; i++) {
-        if (reads)
-            passes_base_map_read(context, material, maps[i], names[i], pass);
-        else
-            lobe_pass_read(pass, &(lobe_binding){.name = names[i], .resource = white});
+    passes_base_colour_read(context, material, reads, pass);
+    read_map_or_white(context, material, MAP_SPECULAR, "specular_map", reads, pass);
+}
+
+struct lobe_grid_constants passes_lobe_grid_constants(const filter_context *context,
+                                                      const device_material *material) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    struct lobe_grid_constants constants = {.width = grid.width, .height = grid.height};
+    if (passes_lobes_are_masked(material)) {
+        constants.alpha = passes_mask_alpha(context->scene, material);
+        constants.cutoff = material->material->alpha_cutoff;
     }
+    return constants;
 }
 
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
@@ -47,6 +67,7 @@ void passes_base_maps_specialise(const device_material *material, specialisation
     passes_specialise(list, SPECIALISE_INTERPOLATED,
                       passes_device_map_is_interpolated(material, MAP_NORMAL) ||
                           passes_device_map_is_interpolated(material, MAP_WIDTH));
+    passes_specialise(list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
 }
 
 void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,
@@ -64,22 +85,20 @@ void passes_grid_map_make(const filter_context *context, const struct lobe_grid_
 reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
                             const lobe_map_kind *kind, lobe_format format) {
     const device_material *material = &context->scene->materials[index];
-    const lobe_grid grid = passes_lobe_grid(material);
+    const uint32_t layers =
+        kind->layers + (passes_lobes_are_masked(material) ? kind->mask_layers : 0);
     char name[64];
     snprintf(name, sizeof name, "%s of material %u", kind->content, index);
-    reduced_map map = passes_seen_map_declare(context, index, name, format, kind->layers, true);
+    reduced_map map = passes_seen_map_declare(context, index, name, format, layers, true);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
     passes_base_maps_read(context, material, false, pass);
+    passes_base_colour_read(context, material, kind->reads_base_colour, pass);
     passes_reduced_map_write(&map, pass, kind->binding, 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
     if (kind->read_more)
         kind->read_more(context, material, pass, &list);
-    struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
-    if (kind->masked) {
-        extent.alpha = passes_mask_alpha(context->scene, material);
-        extent.cutoff = material->material->alpha_cutoff;
-    }
+    const struct lobe_grid_constants extent = passes_lobe_grid_constants(context, material);
     const char *const shaders[] = {kind->shader, kind->seen_shader};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;

@@ -18,10 +18,17 @@ void passes_base_map_read(const filter_context *context, const device_material *
 /// The constants of the material and of shaders/maps/base_maps.glsl.
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list);
 
-/// The colour maps, or white where the shader's constants say that it reads none: it then depends
-/// on no map of colours.
+/// The base colour map, if the shader `reads` colours or the material's lobes are masked; else
+/// white: it then depends on no such map.
+void passes_base_colour_read(const filter_context *context, const device_material *material,
+                             bool reads, lobe_pass *pass);
+/// The same, and the specular map, or white unless the shader reads colours.
 void passes_colour_maps_read(const filter_context *context, const device_material *material,
                              bool reads, lobe_pass *pass);
+
+/// Push constants of a pass over the material's grid of lobes, with its mask if these are masked.
+struct lobe_grid_constants passes_lobe_grid_constants(const filter_context *context,
+                                                      const device_material *material);
 
 /// Adds to `pass` the dispatch that makes level 0 of `map` on a grid of `extent` texels, which are
 /// its push constants, and then the reduction. `shaders`: for whole maps, and its variant
@@ -31,7 +38,7 @@ void passes_grid_map_make(const filter_context *context, const struct lobe_grid_
                           lobe_pass *pass, reduced_map *map);
 
 /// A map whose level 0 one compute pass makes from the base maps. Its push constants are the grid's
-/// width and height, and what of its alpha the material's mask keeps.
+/// (passes_lobe_grid_constants).
 typedef struct lobe_map_kind {
     const char *content;     ///< what it holds; part of its name
     const char *pass;        ///< name of the pass
@@ -39,7 +46,8 @@ typedef struct lobe_map_kind {
     const char *seen_shader; ///< its variant SEEN_TILES, see passes/maps/seen_tiles.h
     const char *binding;     ///< of the map, in that shader and in shading
     uint32_t layers;         ///< of the map
-    bool masked;             ///< its shader reads the push constants of the mask
+    uint32_t mask_layers;    ///< more of them, where lobes are masked
+    bool reads_base_colour;  ///< its shader does, not only as a mask
     /// Binds and specialises what the shader reads beside the base maps. NULL: nothing.
     void (*read_more)(const filter_context *context, const device_material *material,
                       lobe_pass *pass, specialisation_list *list);

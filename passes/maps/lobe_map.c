@@ -16,6 +16,8 @@ void passes_lobe_map_bind(const filter_context *context, uint32_t material, cons
         sampler.texels = sampler.levels = LOBE_SAMPLE_NEAREST;
     passes_appearance_bind(appearance, binding, resource, sampler);
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_LOBES, map != NULL);
+    passes_appearance_specialise(appearance, SPECIALISE_MASKED_LOBES,
+                                 passes_lobes_are_masked(uploaded));
     passes_filtered_maps_build(context, material, appearance);
     if (!map)
         return;

@@ -46,6 +46,11 @@ bool passes_bin_widths_vary(const device_material *material) {
     return vary;
 }
 
+uint32_t passes_bin_layers(const device_material *material, uint32_t bins, bool own_colours) {
+    const uint32_t last = own_colours || passes_lobes_are_masked(material) ? 1 : 0;
+    return (own_colours ? 3 : 2) * bins + last;
+}
+
 void passes_bins_specialise(const device_material *material, uint32_t bins, bool own_colours,
                             filtered_appearance *appearance) {
     passes_appearance_specialise(appearance, SPECIALISE_BIN_WIDTHS,

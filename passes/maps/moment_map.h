@@ -22,6 +22,9 @@ lobe_format passes_bin_format(const filter_context *context);
 /// Whether the maps of specular colour lie under the lobes', so that bins can have their own.
 bool passes_bins_may_have_colours(const device_material *material);
 
+/// Layers of a map of the material's lobes in bins.
+uint32_t passes_bin_layers(const device_material *material, uint32_t bins, bool own_colours);
+
 /// What shading needs to know of the bins of a material whose lobes vary.
 void passes_bins_specialise(const device_material *material, uint32_t bins, bool own_colours,
                             filtered_appearance *appearance);

@@ -7,6 +7,7 @@ const lobe_map_kind passes_averaged_parameters = {
     .seen_shader = "maps/parameter_averaging_seen_tiles.comp",
     .binding = "parameter_map",
     .layers = 1,
+    .mask_layers = 1,
 };
 
 void passes_parameter_averaging_build(const filter_context *context, size_t instance,

@@ -120,6 +120,12 @@ bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32
     return grid.use && passes_maps_share_coordinates(material, map, grid.map);
 }
 
+bool passes_lobes_are_masked(const device_material *material) {
+    const device_map *mask = &material->maps[MAP_BASE_COLOUR];
+    return material->material->alpha_mask && mask->use && mask->width * mask->height > 1 &&
+           passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR);
+}
+
 bool passes_lies_under_lobes(const device_material *material, uint32_t map) {
     const lobe_grid grid = passes_lobe_grid(material);
     const device_map *own = &material->maps[map];

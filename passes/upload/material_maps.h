@@ -44,6 +44,9 @@ bool passes_lobe_grid_varies(const lobe_grid *grid);
 bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b);
 /// Whether a map that a material has is laid out on the surface as its grid is.
 bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32_t map);
+/// Whether the material has a mask that lies as the grid does: maps of lobes leave out what it cuts
+/// away.
+bool passes_lobes_are_masked(const device_material *material);
 /// Whether a map of a material, if it has that, lies as the grid does, and is no finer.
 bool passes_lies_under_lobes(const device_material *material, uint32_t map);
 

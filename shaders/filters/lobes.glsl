@@ -103,11 +103,11 @@ float uniform_complement() {
 }
 
 // The mean of the texels' normals, and of 1 - |r| of their base lobes; `coverage`: the weights'
-// sum in a footprint, below 1 at the edge of an atlas.
+// sum in a footprint, below 1 at the edge of an atlas and under a mask.
 vec4 fetch_mean(map_area area, out float coverage) {
     coverage = 1.0;
     vec4 one = vec4(0.0);
-    if (SPACE != SPACE_TANGENT || MEAN_LAYER == 0u) {
+    if (SPACE != SPACE_TANGENT || MASKED_LOBES || MEAN_LAYER == 0u) {
         one = filtered_layer(mixture_map, area, MIXTURE_LAYER_ONE);
         coverage = max(one.w, LEAST_WEIGHT);
     }

@@ -14,8 +14,6 @@
 #include "environment/reflection.glsl"
 #endif
 
-layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
-
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {
     moments_knobs filter_knobs;
 };
@@ -24,6 +22,7 @@ struct appearance {
     base_material base;     // level 0, where it may be seen; colours are the footprint's
     base_material filtered; // averaged over the footprint
     map_area area;
+    float mass_scale; // of the bins
     float base_share; // [0, 1]: how much of the appearance is level 0
     // Of the texels' normals those that face the viewer, and their share; of half-vector lobes all.
     normal_spread facing;
@@ -128,7 +127,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     bin_means means = no_bins();
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, fetched.area, i);
+        plane_bin bin = read_bin(surface, fetched.area, fetched.mass_scale, i);
         // A footprint's lobes together have a mass of at least one.
         if (bin.mass <= filter_knobs.least_share)
             continue;
@@ -149,12 +148,13 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 
 // Colours of the footprint. Where bins have their own, these are means of the texels' reflection,
 // not the reflection of mean parameters.
-base_material footprint_material(surface_point surface, vec3 normal, map_area area) {
+// `last`: of the map, see read_last_layer.
+base_material footprint_material(surface_point surface, vec3 normal, map_area area, vec4 last) {
     if (!(FILTERED_LOBES && BIN_COLOUR))
         return filtered_material(surface, normal, area);
     base_material base;
     base.normal = normal;
-    base.diffuse = filtered_layer(moment_map, area, 3u * BINS).rgb * colour_unit();
+    base.diffuse = last.rgb;
     if (VERTEX_COLOUR)
         base.diffuse *= surface.colour.rgb;
     base.specular = vec3(0.0); // each bin has its own
@@ -169,7 +169,9 @@ appearance fetch_appearance(surface_point surface) {
     result.lobe_count = float(LOBE_COUNT);
     result.level = 0.0;
     result.normal = unfiltered_normal(surface);
-    result.filtered = footprint_material(surface, result.normal, result.area);
+    vec4 last = FILTERED_LOBES ? read_last_layer(result.area) : vec4(0.0);
+    result.mass_scale = last.w;
+    result.filtered = footprint_material(surface, result.normal, result.area, last);
     if (FILTERED_LOBES) {
         result.level = result.area.level;
         result.base_share =
@@ -324,7 +326,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     bin_means means = no_bins();
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, fetched.area, i);
+        plane_bin bin = read_bin(surface, fetched.area, fetched.mass_scale, i);
         if (bin.mass <= filter_knobs.least_share)
             continue;
         add_to_means(means, bin);

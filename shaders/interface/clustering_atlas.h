@@ -10,12 +10,14 @@ struct atlas_constants {
                         // (a direction), -1: surfaces that face away are kept
     uint width;
     uint height;
-    uint padding_0;
-    uint padding_1;
+    float alpha; // as in lobe_grid_constants
+    float cutoff;
 };
 INTERFACE_SIZE(atlas_constants, 80)
 INTERFACE_OFFSET(atlas_constants, eye, 48)
 INTERFACE_OFFSET(atlas_constants, width, 64)
 INTERFACE_OFFSET(atlas_constants, height, 68)
+INTERFACE_OFFSET(atlas_constants, alpha, 72)
+INTERFACE_OFFSET(atlas_constants, cutoff, 76)
 
 #endif

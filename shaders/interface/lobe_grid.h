@@ -10,7 +10,7 @@ struct lobe_grid_constants {
     uint width; // of the base maps, texels: the larger of the normal and the width map
     uint height;
     uint level;   // of the map that is made, where a pass makes tiles of any level
-    float alpha;  // factor of the base colour map's alpha, where a pass reads that as a mask
+    float alpha;  // factor of the base colour map's alpha, where lobes are masked
     float cutoff; // what is below is cut away
 };
 INTERFACE_SIZE(lobe_grid_constants, 20)

@@ -22,11 +22,10 @@
 #define METAL_LAYER_COLOUR 1 // E[c], E[m]; not with METAL_MEANS_ALONE
 
 // Layers of the map of how diffuse colours go with normals (maps/colour_normals.comp): with d the
-// diffuse colour and n the normal of a point, and s one where a mask keeps the point, else zero,
+// diffuse colour and n the normal of a point, and s how much it counts (maps/base_maps.glsl),
 // layers 0 to 2 have E[s d_k n], E[s d_k] of a channel.
-#define COLOUR_NORMALS_MEAN   3 // the layer of E[n], E[s]
-#define COLOUR_NORMALS_KEPT   4 // the layer of E[s n]; only under a mask
-#define COLOUR_NORMALS_LAYERS 5
+#define COLOUR_NORMALS_MEAN   3 // the layer of E[s n], E[s]
+#define COLOUR_NORMALS_LAYERS 4
 
 // A material's constants (uniform block, std140). Which parts are read depends on the
 // specialisation of the shader.

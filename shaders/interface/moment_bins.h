@@ -14,7 +14,8 @@
 // [b layers + 2]  where bins have colours: sum of m times the specular colour. Of microfacets the
 //                 colour that the base colour gives to metal, and in alpha m times what is not
 //                 metal, because the mesh's colours tint the base colour alone
-// [last]          where bins have colours: mean of the diffuse colour; of microfacets times 1 - F0
+// [last]          where bins have colours: mean of the diffuse colour; of microfacets times 1 - F0.
+//                 There, and under a mask, in alpha how much the texels count (maps/base_maps.glsl)
 #define MOMENT_MAXIMUM_BINS 6
 
 #define SPECIALISE_BINS       (SPECIALISE_FILTER + 20) // uint, [1, MOMENT_MAXIMUM_BINS]

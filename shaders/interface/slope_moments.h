@@ -8,9 +8,10 @@
 // surface perpendicular to a normal, (x, y) = -n_xy/n_z. E: mean over texels.
 //
 // [0]  E[x], E[y], E[n_z], mean variance of the base lobes in slopes
-// [1]  E[x^2], E[y^2], E[xy], 0
+// [1]  E[x^2], E[y^2], E[xy], E[1]
 //
-// x and y are those of the base lobes' directions, n_z is the normals'.
+// x and y are those of the base lobes' directions, n_z is the normals'. E[1] is how much the texels
+// count: one, or less under a mask (maps/base_maps.glsl).
 #define SLOPE_LAYER_FIRST  0
 #define SLOPE_LAYER_SECOND 1
 #define SLOPE_LAYERS       2

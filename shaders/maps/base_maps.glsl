@@ -7,6 +7,7 @@
 // and normals made unit length after that. The passes run over the texels of the larger map and
 // read both maps at a few points inside each texel.
 
+#include "interface/lobe_grid.h"
 #include "lib/map/base_texel.glsl"
 #include "lib/map/normal_map.glsl"
 #include "lib/map/texel_point.glsl"
@@ -19,6 +20,16 @@ layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 // Points of a texel at which the maps are read: its centre where no map is interpolated.
 const int POINTS = INTERPOLATED ? TEXEL_POINTS : 1;
 
+// Under a mask that lies on the surface as the lobes do, maps are means over what it keeps: what it
+// cuts away, as the flat ground between the wires of a fence, is not seen. Sums and how much was
+// summed are filtered, and divided after that.
+layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
+
+// How much a point counts that is cut away: next to nothing, but where nothing is kept there are
+// normals, too.
+const float WEIGHT_OF_CUT = 1.0 / 1024.0;
+
+layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 5) uniform sampler2D normal_map;
 layout(set = 0, binding = 6) uniform sampler2D width_map;
 
@@ -37,6 +48,12 @@ vec3 normal_at(vec2 point) {
                ? decode_normal(textureLod(normal_map, point, 0.0).xyz, material.normal_scale,
                                NORMALS)
                : vec3(0.0, 0.0, 1.0);
+}
+
+// How much a point counts. `alpha`, `cutoff`: of the mask, as in lobe_grid_constants.
+float weight_of_point(vec2 point, float alpha, float cutoff) {
+    return MASKED_LOBES && base_texel(base_colour_map, point).a * alpha < cutoff ? WEIGHT_OF_CUT
+                                                                                 : 1.0;
 }
 
 // The factor of the material's width: red for half-vector lobes, green (roughness) for

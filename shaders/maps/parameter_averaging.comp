@@ -2,11 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #pragma variants SEEN_TILES
 
-// The finest level of the map of `mipmap`: normals and concentrations averaged like colours.
+// The finest level of the map of `mipmap`: normals and concentrations averaged like colours; under
+// a mask, a second layer has how much of them counts.
 // Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
 
 #include "maps/base_maps.glsl"
-#include "interface/lobe_grid.h"
 #include "lib/map/box_reduction.glsl"
 #include "maps/target_texel.glsl"
 
@@ -24,16 +24,21 @@ void main() {
     vec3 column_weights = box_weights(size.x, position.x);
     vec3 row_weights = box_weights(size.y, position.y);
     vec4 mean = vec4(0.0);
+    float share = 0.0;
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            float weight = row_weights[y] * column_weights[x] / float(POINTS);
             for (int i = 0; i < POINTS; ++i) {
                 vec2 point = map_point(2 * position + ivec2(x, y), i, size);
+                float weight = row_weights[y] * column_weights[x] / float(POINTS) *
+                               weight_of_point(point, constants.alpha, constants.cutoff);
                 float factor = width_at(point);
                 float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
                 mean += weight * vec4(normal_at(point), width);
+                share += weight;
             }
         }
     }
     imageStore(parameter_map, ivec3(position, 0), mean);
+    if (MASKED_LOBES)
+        imageStore(parameter_map, ivec3(position, 1), vec4(share));
 }

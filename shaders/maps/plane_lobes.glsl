@@ -11,7 +11,6 @@
 layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 
-layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
 
 // glTF 2.0, appendix B.2.

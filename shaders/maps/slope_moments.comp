@@ -8,7 +8,6 @@
 // those of the directions, because masking and the mean reflecting normal need both.
 
 #include "maps/base_maps.glsl"
-#include "interface/lobe_grid.h"
 #include "interface/slope_moments.h"
 #include "lib/map/box_reduction.glsl"
 #include "maps/target_texel.glsl"
@@ -38,6 +37,7 @@ float base_variance(int lobe, float factor) {
 
 void add_point(inout moment_sums sums, vec3 normal, float factor, float weight) {
     sums.first.z += weight * normal.z;
+    sums.second.w += weight;
     if (MODEL == MODEL_MICROFACET) {
         add_direction(sums, normal, base_variance(0, factor), weight);
         return;
@@ -57,9 +57,10 @@ void main() {
     moment_sums sums = moment_sums(vec4(0.0), vec4(0.0));
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            float weight = row_weights[y] * column_weights[x] / float(POINTS);
             for (int i = 0; i < POINTS; ++i) {
                 vec2 point = map_point(2 * position + ivec2(x, y), i, size);
+                float weight = row_weights[y] * column_weights[x] / float(POINTS) *
+                               weight_of_point(point, constants.alpha, constants.cutoff);
                 add_point(sums, normal_at(point), width_at(point), weight);
             }
         }

@@ -13,8 +13,8 @@
 #endif
 
 // xyz: mean normal; w: mean of the concentration of microfacets, or of the factor of the lobes'
-// widths (see parameter_averaging.comp).
-layout(LOBE_DESCRIPTOR(16)) uniform sampler2D parameter_map;
+// widths (see parameter_averaging.comp). A second layer: how much of them counts.
+layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray parameter_map;
 
 struct appearance {
     base_material base;
@@ -49,10 +49,9 @@ vec3 stretched_mean(vec3 mean, surface_point surface) {
 
 // Averages over the footprint: a normal of length at most one, and a width.
 vec4 fetch_averages(map_area area, surface_point surface) {
-    vec4 sum = vec4(0.0);
-    for (uint i = 0u; i < probes_of(area); ++i)
-        sum += fetch_probe(parameter_map, area, i);
-    sum /= float(probes_of(area));
+    vec4 sum = filtered_layer(parameter_map, area, 0u);
+    if (MASKED_LOBES)
+        sum *= per_kept(filtered_layer(parameter_map, area, 1u).x);
     sum.xyz = stretched_mean(sum.xyz, surface);
     if (may_see_level_0(lobe_map())) {
         vec3 normal = normals_of_level_0(surface, area.level, 1.0).mean;

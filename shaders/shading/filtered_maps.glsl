@@ -11,6 +11,8 @@ layout(constant_id = SPECIALISE_ANISOTROPY) const uint ANISOTROPY = 1; // of a p
 layout(constant_id = SPECIALISE_FILTERED_LOBES) const bool FILTERED_LOBES = false;
 layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
+// Maps of lobes are sums over what a mask keeps, see maps/base_maps.glsl.
+layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
 
 layout(LOBE_DESCRIPTOR(17)) uniform sampler2D base_colour_filtered;
 layout(LOBE_DESCRIPTOR(18)) uniform sampler2D width_filtered;
@@ -47,6 +49,11 @@ vec4 filtered_layer(sampler2DArray map, map_area area, uint layer) {
     for (uint i = 0u; i < probes_of(area); ++i)
         sum += fetch_probe(map, layer, area, i);
     return sum / float(probes_of(area));
+}
+
+// The inverse of how much a footprint's texels count.
+float per_kept(float share) {
+    return MASKED_LOBES ? 1.0 / max(share, 1e-6) : 1.0;
 }
 
 bool is_masked(int map) {

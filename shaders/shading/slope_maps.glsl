@@ -59,6 +59,8 @@ void stretch_moments(inout slope_moments moments, surface_point surface) {
 // of normals.
 slope_moments moments_of_layers(vec4 first, vec4 second, surface_point surface) {
     float height = height_scale();
+    first *= per_kept(second.w);
+    second *= per_kept(second.w);
     slope_moments result;
     result.mean = height * first.xy;
     result.covariance = height * height * covariance_of_moments(first.xy, second.xyz);

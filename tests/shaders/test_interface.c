@@ -154,6 +154,8 @@ static known_member known[] = {
     MEMBER(atlas_constants, eye, 1),
     MEMBER(atlas_constants, width, 2),
     MEMBER(atlas_constants, height, 3),
+    MEMBER(atlas_constants, alpha, 4),
+    MEMBER(atlas_constants, cutoff, 5),
     MEMBER(environment_constants, environment_from_world, 0),
     MEMBER(environment_constants, intensity, 1),
     MEMBER(environment_constants, sample_number, 2),

@@ -18,19 +18,11 @@ static uint32_t variation_of(const device_material *material) {
     return coloured ? BASE_LOBES_COLOURED : BASE_LOBES_VARY;
 }
 
-static void read_no_colours(const filter_context *context, const device_material *material,
-                            lobe_pass *pass, specialisation_list *list) {
-    (void)material;
-    lobe_pass_read(pass, &(lobe_binding){.name = "base_colour_map",
-                                         .resource = lobe_graph_import_texture(
-                                             context->graph, context->scene->white)});
-    passes_specialise(list, SPECIALISE_BASE_LOBES, BASE_LOBES_VARY);
-}
-
-static void read_colours(const filter_context *context, const device_material *material,
-                         lobe_pass *pass, specialisation_list *list) {
-    passes_base_map_read(context, material, MAP_BASE_COLOUR, "base_colour_map", pass);
-    passes_specialise(list, SPECIALISE_BASE_LOBES, BASE_LOBES_COLOURED);
+static void specialise(const filter_context *context, const device_material *material,
+                       lobe_pass *pass, specialisation_list *list) {
+    (void)context;
+    (void)pass;
+    passes_specialise(list, SPECIALISE_BASE_LOBES, variation_of(material));
 }
 
 static reduced_map make_map(const filter_context *context, uint32_t index, uint32_t variation) {
@@ -41,7 +33,8 @@ static reduced_map make_map(const filter_context *context, uint32_t index, uint3
         .seen_shader = "filters/leadr/base_lobes_seen_tiles.comp",
         .binding = "base_lobe_map",
         .layers = 1,
-        .read_more = variation == BASE_LOBES_COLOURED ? read_colours : read_no_colours,
+        .reads_base_colour = variation == BASE_LOBES_COLOURED,
+        .read_more = specialise,
     };
     return passes_lobe_map(context, index, &kind, passes_filtered_map_format(context));
 }

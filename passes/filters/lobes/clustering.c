@@ -87,14 +87,19 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
         atlas = passes_surface_atlas_draw(context, instance, grid.width, grid.height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
     passes_base_maps_read(context, material, false, pass);
+    passes_base_colour_read(context, material, false, pass);
     passes_reduced_map_write(&mixture.map, pass, "mixture_map", 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, request->subdivision);
     passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
-    struct lobe_grid_constants tangent_constants = {.width = grid.width, .height = grid.height};
-    struct atlas_constants atlas_constants = {.width = grid.width, .height = grid.height};
+    const struct lobe_grid_constants tangent_constants =
+        passes_lobe_grid_constants(context, material);
+    struct atlas_constants atlas_constants = {.width = grid.width,
+                                              .height = grid.height,
+                                              .alpha = tangent_constants.alpha,
+                                              .cutoff = tangent_constants.cutoff};
     lobe_dispatch dispatch = {
         .shader = mixture.map.tiles.version > 0 ? "filters/lobes/clustering_seen_tiles.comp"
                                                 : "filters/lobes/clustering.comp",

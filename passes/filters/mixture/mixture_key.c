@@ -26,19 +26,23 @@ uint64_t passes_mixture_kind_digest(const filter_context *context, const mixture
 static bool is_read(const device_material *material, uint32_t map, bool own_colours) {
     const bool is_colour = map == MAP_BASE_COLOUR || map == MAP_SPECULAR;
     return material->maps[map].use &&
-           (map == MAP_NORMAL || map == MAP_WIDTH || (own_colours && is_colour));
+           (map == MAP_NORMAL || map == MAP_WIDTH || (own_colours && is_colour) ||
+            (map == MAP_BASE_COLOUR && passes_lobes_are_masked(material)));
 }
 
-static uint64_t constants_digest(const device_material *material, bool own_colours,
-                                 uint64_t digest) {
+static uint64_t constants_digest(const filter_context *context, const device_material *material,
+                                 bool own_colours, uint64_t digest) {
+    const struct lobe_grid_constants grid = passes_lobe_grid_constants(context, material);
     struct material_constants constants = material->values;
     if (!own_colours)
         passes_device_material_forget_colours(&constants);
+    digest = passes_digest_bytes(digest, &grid, sizeof grid);
     return passes_digest_bytes(digest, &constants, sizeof constants);
 }
 
-uint64_t passes_mixture_inputs(const device_material *material, bool own_colours) {
-    uint64_t digest = constants_digest(material, own_colours, material->parameter_version);
+uint64_t passes_mixture_inputs(const filter_context *context, const device_material *material,
+                               bool own_colours) {
+    uint64_t digest = constants_digest(context, material, own_colours, material->parameter_version);
     for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (is_read(material, map, own_colours))
             digest = passes_digest(digest, material->texel_versions[map]);
@@ -57,7 +61,7 @@ bool passes_mixture_has_texels(const filter_context *context, const device_mater
 uint64_t passes_mixture_key(const filter_context *context, const device_material *material,
                             const mixture_kind *kind) {
     uint64_t digest = passes_mixture_kind_digest(context, kind);
-    digest = constants_digest(material, kind->own_colours, digest);
+    digest = constants_digest(context, material, kind->own_colours, digest);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
     for (size_t i = 0; i < list.count; i++)

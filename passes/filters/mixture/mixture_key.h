@@ -12,7 +12,8 @@ uint64_t passes_mixture_kind_digest(const filter_context *context, const mixture
 
 /// A digest of what a material's mixture was made from, which holds within this process: it does
 /// not look at texels.
-uint64_t passes_mixture_inputs(const device_material *material, bool own_colours);
+uint64_t passes_mixture_inputs(const filter_context *context, const device_material *material,
+                               bool own_colours);
 
 /// Whether the host has all texels that the mixture is made from. Those that it gives on the device
 /// may be others in every frame.

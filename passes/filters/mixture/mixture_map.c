@@ -105,6 +105,7 @@ static void dispatch_rows(const mixture_build *build, const char *shader, uint32
     passes_specialise(&list, SPECIALISE_BINS, build->kind->components);
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, build->kind->own_colours);
     passes_specialise(&list, SPECIALISE_BIN_WIDTHS, passes_bin_widths_vary(material));
+    passes_specialise(&list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
     passes_specialise(&list, SPECIALISE_MIXTURE_SHAPE, build->kind->shape);
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, build->kind->plane);
     passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
@@ -305,10 +306,10 @@ static uint32_t add_level(mixture_build *build, uint32_t level, uint32_t most) {
     return 1;
 }
 
-static uint32_t layer_count(const mixture_kind *kind) {
+static uint32_t layer_count(const device_material *material, const mixture_kind *kind) {
     if (kind->plane == MIXTURE_PLANE_PROJECTED)
         return kind->components;
-    return kind->own_colours ? 3 * kind->components + 1 : 2 * kind->components;
+    return passes_bin_layers(material, kind->components, kind->own_colours);
 }
 
 kept_image passes_mixture_extent(const device_material *material, const mixture_kind *kind) {
@@ -316,20 +317,21 @@ kept_image passes_mixture_extent(const device_material *material, const mixture_
     kept_image extent = {.format = kind->format,
                          .width = passes_half_extent(grid.width),
                          .height = passes_half_extent(grid.height),
-                         .layers = layer_count(kind)};
+                         .layers = layer_count(material, kind)};
     extent.levels = passes_level_count(extent.width, extent.height);
     return extent;
 }
 
 moment_map passes_mixture_map_declare(const filter_context *context, uint32_t index,
                                       const mixture_kind *kind) {
-    const lobe_grid grid = passes_lobe_grid(&context->scene->materials[index]);
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
     char name[64];
     snprintf(name, sizeof name, "mixtures of material %u", index);
     return (moment_map){.format = kind->format,
                         .map = passes_reduced_map_declare(context->graph, name, kind->format,
                                                           grid.width, grid.height,
-                                                          layer_count(kind), true)};
+                                                          layer_count(material, kind), true)};
 }
 
 uint32_t passes_mixture_part_count(const device_material *material, const mixture_kind *kind) {

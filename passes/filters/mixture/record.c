@@ -22,7 +22,7 @@ lobe_result passes_mixture_prepare(const filter_context *context, uint32_t index
         return LOBE_OK;
     const kept_subject subject = {
         .kind = passes_mixture_kind_digest(context, kind),
-        .inputs = passes_mixture_inputs(material, kind->own_colours),
+        .inputs = passes_mixture_inputs(context, material, kind->own_colours),
         .parts = passes_mixture_part_count(material, kind),
         .has_texels = passes_mixture_has_texels(context, material, kind->own_colours),
         .layout = {.what = "mixture",

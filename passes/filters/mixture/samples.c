@@ -5,6 +5,7 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/maps/lobe_map.h"
+#include "passes/maps/moment_map.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/gaussian_mixture.h"
 #include "shaders/interface/lobe_grid.h"
@@ -39,7 +40,7 @@ mixture_samples passes_mixture_samples(const filter_context *context, uint32_t i
     enum { GROUP_SIDE = 8 };
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
-    const uint32_t layers = own_colours ? 3 * material->lobe_count + 1 : 2 * material->lobe_count;
+    const uint32_t layers = passes_bin_layers(material, material->lobe_count, own_colours);
     mixture_samples samples = declare(context->graph, index, &grid, layers, retained);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "mixture_samples");
     passes_base_maps_read(context, material, own_colours, pass);
@@ -53,7 +54,7 @@ mixture_samples passes_mixture_samples(const filter_context *context, uint32_t i
     passes_knob_specialise(context, &passes_knob_base, &list);
     passes_specialise(&list, SPECIALISE_BIN_COLOUR, own_colours);
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, plane);
-    const struct lobe_grid_constants constants = {.width = grid.width, .height = grid.height};
+    const struct lobe_grid_constants constants = passes_lobe_grid_constants(context, material);
     const uint32_t columns = (grid.width + MIXTURE_TILE - 1) / MIXTURE_TILE;
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){

@@ -57,6 +57,7 @@ static void read_patch(const lobe_scene *scene, const device_material *material,
         patch->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
                                                   &patch->lobes[patch->count]);
     }
+    patch->count = passes_plane_samples_keep(patch->lobes, patch->count);
 }
 
 static uint32_t count_lights(const lobe_survey *survey) {
@@ -80,7 +81,7 @@ static void find_units(const footprint_set *set, uint32_t light, double units[FO
     }
 }
 
-/// NULL: out of memory.
+/// The last is of all the maps, and so is a patch that a mask cuts away. NULL: out of memory.
 static footprint_set *read_footprints(const lobe_scene *scene, const device_material *material,
                                       const lobe_survey *survey, const lobe_allocator *allocator) {
     enum { LOBES = MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT * LOBE_MATERIAL_MAXIMUM_LOBES };
@@ -89,16 +90,19 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
     footprint_set *set = lobe_allocate(
         allocator, 1,
         sizeof *set + ((size_t)MATERIAL_PATCHES * LOBES + survey->count) * sizeof *set->lobes);
+    plane_sample *whole = set ? set->lobes + (size_t)MATERIAL_PATCHES * LOBES : NULL;
+    if (set)
+        memcpy(whole, survey->samples, survey->count * sizeof *survey->samples);
     for (uint32_t i = 0; set && i < FOOTPRINTS; i++) {
         footprint *patch = &set->all[i];
         patch->lobes = set->lobes + (size_t)i * LOBES;
         patch->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
         patch->light_count = lights;
-        if (i < MATERIAL_PATCHES) {
+        if (i < MATERIAL_PATCHES)
             read_patch(scene, material, i, patch);
-        } else {
+        if (patch->count == 0) {
+            patch->lobes = whole;
             patch->count = survey->count;
-            memcpy(patch->lobes, survey->samples, survey->count * sizeof *survey->samples);
         }
         passes_footprint_complete(patch, microfacet);
     }

@@ -35,8 +35,8 @@ static void add_level(const filter_context *context, uint32_t index,
     specialisation_list list = {.graph = context->graph};
     specialise_binning(context, material, partition, colour, &list);
     passes_specialise(&list, SPECIALISE_TEXEL_SAMPLES, samples);
-    const struct lobe_grid_constants constants = {
-        .width = partition->width, .height = partition->height, .level = level};
+    struct lobe_grid_constants constants = passes_lobe_grid_constants(context, material);
+    constants.level = level;
     lobe_dispatch dispatch = {.shader = seen ? "filters/moments/binning_seen_tiles.comp"
                                              : "filters/moments/binning.comp",
                               .constants = &constants,
@@ -60,12 +60,12 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
                                  lobe_format format) {
     char name[64];
     snprintf(name, sizeof name, "moments of material %u", index);
-    const uint32_t layers = partition->own_colours ? 3 * partition->bins + 1 : 2 * partition->bins;
+    const device_material *material = &context->scene->materials[index];
+    const uint32_t layers = passes_bin_layers(material, partition->bins, partition->own_colours);
     const uint32_t samples = passes_texel_samples(context);
     moment_map result = {.format = format, .bins = bins};
     result.map = passes_seen_map_declare(context, index, name, format, layers, samples == 0);
-    add_level(context, index, partition, &result, 0,
-              finest_samples(&context->scene->materials[index], samples));
+    add_level(context, index, partition, &result, 0, finest_samples(material, samples));
     for (uint32_t level = 1; samples > 0 && level < result.map.levels; level++)
         add_level(context, index, partition, &result, level, samples);
     if (samples == 0)

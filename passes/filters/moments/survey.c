@@ -264,6 +264,9 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
             passes_plane_samples_read(scene, material, texel->x + 0.5, texel->y + 0.5,
                                       (double)texel->weight, &survey->samples[survey->count]);
     }
+    // What a mask cuts away would have bins of its own, but nobody sees it.
+    const uint32_t kept = passes_plane_samples_keep(survey->samples, survey->count);
+    survey->count = kept > 0 ? kept : survey->count;
 }
 
 static surveying *begin(const lobe_allocator *allocator, const device_material *material) {

@@ -8,15 +8,15 @@
 #include "passes/upload/material_lobes.h"
 #include "passes/upload/material_maps.h"
 
-enum { PATCHES = 8, SAMPLES = 8, NUMBERS = 6 };
+enum { PATCHES = 8, SAMPLES = 8, NUMBERS = 5 };
 
 /// The least root mean square, over patches of the maps, of the covariance of colour and normal,
 /// over the mean colour: light that grazes the surface is brighter or darker by that much.
 static const double least_covariance = 0.04;
 
-/// What is measured of a patch: the normal and the colour.
+/// What is measured of a patch: the normal's x and y, and the colour.
 typedef struct patch_sums {
-    double count, sums[NUMBERS], products[3][3], squares[NUMBERS];
+    double count, sums[NUMBERS], products[2][3], squares[NUMBERS];
 } patch_sums;
 
 static uint32_t hashed(uint32_t x) {
@@ -32,7 +32,7 @@ static uint32_t place_of(uint32_t stratum, uint32_t strata, uint32_t extent, uin
     return place < extent ? place : extent - 1;
 }
 
-/// What a mask cuts away counts as black: if its share goes with normals, so do colours.
+/// Without what a mask cuts away.
 static void add_texel(const lobe_scene *scene, const device_material *material,
                       const colour_correlation *inputs, uint32_t x, uint32_t y, patch_sums *patch) {
     material_colours colours;
@@ -40,11 +40,12 @@ static void add_texel(const lobe_scene *scene, const device_material *material,
     if (!passes_material_colours_read(scene, material, x, y, &colours) ||
         !passes_material_normal_read(material, x + 0.5, y + 0.5, normal))
         return;
-    const bool kept = !(colours.alpha * (double)inputs->alpha < (double)inputs->cutoff);
-    for (int i = 0; i < 3; i++)
+    if (colours.alpha * (double)inputs->alpha < (double)inputs->cutoff)
+        return;
+    for (int i = 0; i < 2; i++)
         numbers[i] = normal[i];
     for (int k = 0; k < 3; k++)
-        numbers[3 + k] = kept ? colours.albedo[k] * (1 - colours.metallic) : 0;
+        numbers[2 + k] = colours.albedo[k] * (1 - colours.metallic);
     for (int i = 0; i < NUMBERS; i++)
         if (!isfinite(numbers[i]))
             return;
@@ -53,20 +54,20 @@ static void add_texel(const lobe_scene *scene, const device_material *material,
         patch->sums[i] += numbers[i];
         patch->squares[i] += numbers[i] * numbers[i];
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 2; i++)
         for (int k = 0; k < 3; k++)
-            patch->products[i][k] += numbers[i] * numbers[3 + k];
+            patch->products[i][k] += numbers[i] * numbers[2 + k];
 }
 
-/// The square of the covariance, of all channels with the normal's first `axes` components, without
-/// what so many texels have by chance.
-static double square_of_covariance(const patch_sums *patch, int axes, double texels) {
+/// The square of the covariance, of all channels with the normal, without what so many texels
+/// have by chance.
+static double square_of_covariance(const patch_sums *patch, double texels) {
     double sum = 0, n = patch->count;
-    for (int i = 0; n > 1 && i < axes; i++) {
+    for (int i = 0; n > 1 && i < 2; i++) {
         const double mean = patch->sums[i] / n, variance = patch->squares[i] / n - mean * mean;
         for (int k = 0; k < 3; k++) {
-            const double colour = patch->sums[3 + k] / n;
-            const double spread = patch->squares[3 + k] / n - colour * colour;
+            const double colour = patch->sums[2 + k] / n;
+            const double spread = patch->squares[2 + k] / n - colour * colour;
             const double covariance = patch->products[i][k] / n - mean * colour;
             sum += covariance * covariance - variance * spread / fmin(n, texels);
         }
@@ -78,8 +79,6 @@ static bool follow_normals(const lobe_scene *scene, const device_material *mater
                            const colour_correlation *inputs) {
     const lobe_grid grid = passes_lobe_grid(material);
     const double texels = fmax((double)grid.width * grid.height / (PATCHES * PATCHES), 1);
-    // A mask may also keep what is steep, or what is not.
-    const int axes = material->material->alpha_mask ? 3 : 2;
     double square = 0, colour = 0, count = 0;
     for (uint32_t p = 0; p < PATCHES * PATCHES; p++) {
         patch_sums patch = {0};
@@ -92,8 +91,8 @@ static bool follow_normals(const lobe_scene *scene, const device_material *mater
                          seed + 1),
                 &patch);
         }
-        square += square_of_covariance(&patch, axes, texels);
-        colour += patch.sums[3] + patch.sums[4] + patch.sums[5];
+        square += square_of_covariance(&patch, texels);
+        colour += patch.sums[2] + patch.sums[3] + patch.sums[4];
         count += patch.count;
     }
     colour /= fmax(count, 1);

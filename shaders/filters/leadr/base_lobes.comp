@@ -8,7 +8,6 @@
 // Factors of the material are left out, so that new ones rebuild nothing.
 
 #include "maps/base_maps.glsl"
-#include "interface/lobe_grid.h"
 #include "interface/slope_moments.h"
 #include "lib/map/box_reduction.glsl"
 #include "maps/target_texel.glsl"
@@ -18,7 +17,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = false;
 layout(constant_id = SPECIALISE_BASE_LOBES) const uint BASE_LOBES = BASE_LOBES_VARY;
 
-layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray base_lobe_map;
 
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
@@ -31,6 +29,7 @@ void add_point(inout vec3 widths, vec2 point, float weight) {
     // glTF 2.0, appendix B.2.
     float reflected = mix(0.04, dot(colour, vec3(0.2126, 0.7152, 0.0722)), metallic);
     float alpha = sqrt(2.0 / max(base_concentration(0, width_at(point)), 1.0));
+    weight *= weight_of_point(point, constants.alpha, constants.cutoff);
     widths += weight * reflected * vec3(alpha, alpha * alpha, 1.0);
 }
 

@@ -6,7 +6,6 @@
 // instant BRDF map of Xu et al. 2017 has one lobe per texel, so it needs no memory of its own. The
 // mixture starts where texels are averaged, at half the base maps' size.
 
-#include "interface/lobe_grid.h"
 #include "filters/lobes/clustering.glsl"
 #include "maps/target_texel.glsl"
 
@@ -28,7 +27,8 @@ void main() {
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             float weight = row_weights[y] * column_weights[x];
-            add_texel(sums, 2 * position + ivec2(x, y), size, mat3(1.0), complements, weight);
+            add_texel(sums, 2 * position + ivec2(x, y), size, mat3(1.0),
+                      vec2(constants.alpha, constants.cutoff), complements, weight);
         }
     }
     store_clusters(position, sums);

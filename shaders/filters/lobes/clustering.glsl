@@ -5,8 +5,8 @@
 //
 // Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Each cluster j of a
 // subdivision keeps w_j r_j and, as a fourth channel, w_j: only these can be averaged further.
-// Texels that are left out (outside the atlas, facing away) add nothing to either, so that the
-// weights of a subdivision add up to the coverage.
+// Texels that are left out (outside the atlas, facing away, cut away by a mask) add nothing to
+// either, so that the weights of a subdivision add up to the coverage.
 
 #include "maps/base_maps.glsl"
 #include "interface/mixture.h"
@@ -54,13 +54,13 @@ void base_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]
         complements[i] = mean_resultant_complement(base_concentration(i, width));
 }
 
-// Adds what a texel of weight `weight` holds. `to_mixture`: from the tangent frame to the space of
-// the mixtures.
-void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture,
-               inout float complements[MATERIAL_MAXIMUM_LOBES], float weight) {
-    weight /= float(POINTS);
+// Adds what a texel of weight `texel_weight` holds. `to_mixture`: from the tangent frame to the
+// space of the mixtures; `mask`: its factor of alpha and its cutoff.
+void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture, vec2 mask,
+               inout float complements[MATERIAL_MAXIMUM_LOBES], float texel_weight) {
     for (int index = 0; index < POINTS; ++index) {
         vec2 point = map_point(texel, index, size);
+        float weight = texel_weight / float(POINTS) * weight_of_point(point, mask.x, mask.y);
         vec3 normal = normal_at(point);
         if (has_map(MAP_WIDTH))
             base_complements(width_at(point), complements);

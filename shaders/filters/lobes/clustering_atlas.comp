@@ -50,7 +50,8 @@ void main() {
             mat3 from_tangent = mat3(tangent.xyz, bitangent, surface_normal.xyz);
             mat3 to_mixture = rotation() * from_tangent;
             float weight = row_weights[y] * column_weights[x];
-            add_texel(sums, texel, size, to_mixture, complements, weight);
+            add_texel(sums, texel, size, to_mixture, vec2(constants.alpha, constants.cutoff),
+                      complements, weight);
         }
     }
     store_clusters(position, sums);

@@ -13,6 +13,7 @@ layout(constant_id = SPECIALISE_LOBE_COUNT) const uint LOBE_COUNT = 1;
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 4;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
+layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
 layout(constant_id = SPECIALISE_MIXTURE_SHAPE) const uint SHAPE = MIXTURE_SHAPE_AUTOMATIC;
 layout(constant_id = SPECIALISE_MIXTURE_START) const uint START = MIXTURE_START_PARENT;
 layout(constant_id = SPECIALISE_MIXTURE_PRINTED) const bool PRINTED = false;

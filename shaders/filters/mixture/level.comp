@@ -28,7 +28,7 @@ struct level_sums {
     component_sums moments[MIXTURE_MAXIMUM_COMPONENTS]; // d from the components' means
     vec2 widths[MIXTURE_MAXIMUM_COMPONENTS];            // m / sqrt(v), m v
     vec4 colour[MIXTURE_MAXIMUM_COMPONENTS];
-    vec3 diffuse;
+    vec4 diffuse; // and how much all lobes count
 };
 
 float weight_of(level_box box, uvec2 at) {
@@ -79,7 +79,7 @@ level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
                      mixture_component components[MIXTURE_MAXIMUM_COMPONENTS]) {
     component_density densities[MIXTURE_MAXIMUM_COMPONENTS];
     level_sums sums;
-    sums.diffuse = vec3(0.0);
+    sums.diffuse = vec4(0.0);
     for (int j = 0; j < BINS; ++j) {
         densities[j] = density_of(components[j]);
         sums.moments[j] = component_sums(vec4(0.0), vec4(0.0));
@@ -91,9 +91,9 @@ level_sums sum_lobes(level_box box, bool nearest, mixture_units units,
             float weight = weight_of(box, uvec2(x, y));
             for (int i = 0; i < LOBE_COUNT; ++i)
                 add_lobe(sums, ivec2(x, y), i, weight, nearest, units, densities);
-            if (BIN_COLOUR)
+            if (BIN_COLOUR || MASKED_LOBES)
                 sums.diffuse +=
-                    weight * texelFetch(sample_map, ivec3(x, y, LAYERS * LOBE_COUNT), 0).rgb;
+                    weight * texelFetch(sample_map, ivec3(x, y, LAYERS * LOBE_COUNT), 0);
         }
     }
     return sums;
@@ -176,9 +176,8 @@ void write_sums(uvec2 texel, level_sums sums,
             imageStore(moment_map, ivec3(texel, LAYERS * j + 2),
                        unit * sums.colour[j] * colour_unit);
     }
-    if (BIN_COLOUR)
-        imageStore(moment_map, ivec3(texel, LAYERS * BINS),
-                   vec4(sums.diffuse, 0.0) * colour_unit);
+    if (BIN_COLOUR || MASKED_LOBES)
+        imageStore(moment_map, ivec3(texel, LAYERS * BINS), sums.diffuse * colour_unit);
 }
 
 // Where finer levels start: one step further than what the sums were found with.

@@ -5,7 +5,6 @@
 // all of them are within. Where maps are interpolated, a sample is the mean over the texel.
 
 #include "interface/gaussian_mixture.h"
-#include "interface/lobe_grid.h"
 #include "interface/moment_bins.h"
 #include "lib/microfacet/slope_distribution.glsl"
 #include "maps/plane_lobes.glsl"
@@ -71,7 +70,8 @@ lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
         }
         plane_lobe lobe = lobe_in_plane(i, normal_at(point), width_at(point), specular);
         // Lobes without mass have a place and a width, too.
-        float mass = max(lobe.mass, 1e-20) / float(POINTS), sharpness = inversesqrt(lobe.variance);
+        float weight = weight_of_point(point, constants.alpha, constants.cutoff) / float(POINTS);
+        float mass = weight * max(lobe.mass, 1e-20), sharpness = inversesqrt(lobe.variance);
         sums.mass += mass;
         sums.lobe += mass * vec4(lobe.place, sharpness, lobe.variance);
         sums.square += mass * vec3(lobe.place * lobe.place, lobe.place.x * lobe.place.y);
@@ -84,16 +84,19 @@ lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
     return sums;
 }
 
-vec3 diffuse_of_texel(ivec2 texel, inout mixture_extremes own) {
-    vec3 sum = vec3(0.0);
+// The diffuse colour, and how much the texel counts.
+vec4 last_of_texel(ivec2 texel, inout mixture_extremes own) {
+    vec4 sum = vec4(0.0);
     for (int k = 0; k < POINTS; ++k) {
+        vec2 point = map_point(texel, k, ivec2(constants.width, constants.height));
         vec4 specular;
-        vec3 diffuse;
-        colours_at(map_point(texel, k, ivec2(constants.width, constants.height)), specular,
-                   diffuse);
-        sum += diffuse / (material.largest_colour * float(POINTS));
+        vec3 diffuse = vec3(0.0);
+        if (BIN_COLOUR)
+            colours_at(point, specular, diffuse);
+        sum += weight_of_point(point, constants.alpha, constants.cutoff) / float(POINTS) *
+               vec4(diffuse / material.largest_colour, 1.0);
     }
-    extend_colours(sum, own);
+    extend_colours(sum.rgb, own);
     return sum;
 }
 
@@ -114,9 +117,8 @@ void write_texel(ivec2 texel, inout mixture_extremes own) {
         whole += sums.mass;
     }
     own.lobes.z = min(own.lobes.z, -whole);
-    if (BIN_COLOUR)
-        imageStore(sample_map, ivec3(texel, LAYERS * int(LOBE_COUNT)),
-                   vec4(diffuse_of_texel(texel, own), 0.0));
+    if (BIN_COLOUR || MASKED_LOBES)
+        imageStore(sample_map, ivec3(texel, LAYERS * int(LOBE_COUNT)), last_of_texel(texel, own));
 }
 
 // Of the group's threads.

@@ -11,7 +11,6 @@
 // many points of the base maps as the knob `texel_samples` says.
 
 #include "maps/plane_lobes.glsl"
-#include "interface/lobe_grid.h"
 #include "lib/lobe/bin_membership.glsl"
 #include "lib/map/box_reduction.glsl"
 #include "lib/number/hash.glsl"
@@ -35,7 +34,7 @@ struct bin_sums {
     vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
     vec4 spread[MOMENT_MAXIMUM_BINS]; // m p p, m v
     vec4 colour[MOMENT_MAXIMUM_BINS];
-    vec3 diffuse;
+    vec4 diffuse; // and how much all count
 };
 
 float colour_unit() {
@@ -87,6 +86,7 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
 }
 
 void add_point(inout bin_sums sums, vec2 point, float weight) {
+    weight *= weight_of_point(point, constants.alpha, constants.cutoff);
     vec3 normal = normal_at(point);
     float factor = width_at(point);
     vec4 specular = vec4(0.0);
@@ -95,7 +95,7 @@ void add_point(inout bin_sums sums, vec2 point, float weight) {
         colours_at(point, specular, diffuse);
         specular.rgb /= colour_unit();
     }
-    sums.diffuse += weight * diffuse;
+    sums.diffuse += weight * vec4(diffuse / colour_unit(), 1.0);
     for (int i = 0; i < LOBE_COUNT; ++i)
         add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
 }
@@ -143,7 +143,7 @@ void main() {
     if (!find_target_texel(constants.level, extent, position))
         return;
     bin_sums sums;
-    sums.diffuse = vec3(0.0);
+    sums.diffuse = vec4(0.0);
     for (int i = 0; i < BINS; ++i) {
         sums.place[i] = sums.spread[i] = vec4(0.0);
         sums.colour[i] = vec4(0.0);
@@ -156,7 +156,6 @@ void main() {
         if (BIN_COLOUR)
             imageStore(moment_map, ivec3(position, layers * i + 2), sums.colour[i]);
     }
-    if (BIN_COLOUR)
-        imageStore(moment_map, ivec3(position, layers * BINS),
-                   vec4(sums.diffuse / colour_unit(), 0.0));
+    if (BIN_COLOUR || MASKED_LOBES)
+        imageStore(moment_map, ivec3(position, layers * BINS), sums.diffuse);
 }

@@ -7,6 +7,7 @@
 #include "shading/filtered_maps.glsl"
 #include "interface/moment_bins.h"
 
+layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 
@@ -26,14 +27,25 @@ vec3 colour_of_bin(surface_point surface, vec4 fetched) {
     return 0.04 * fetched.a + (VERTEX_COLOUR ? fetched.rgb * surface.colour.rgb : fetched.rgb);
 }
 
-plane_bin read_bin(surface_point surface, map_area area, uint index) {
+// What follows the layers of all bins: the mean diffuse colour, and the inverse of how much the
+// texels count.
+vec4 read_last_layer(map_area area) {
+    vec4 last = BIN_COLOUR || MASKED_LOBES
+                    ? filtered_layer(moment_map, area, (BIN_COLOUR ? 3u : 2u) * BINS)
+                    : vec4(0.0);
+    float scale = per_kept(last.w);
+    return vec4(scale * colour_unit() * last.rgb, scale);
+}
+
+// `mass_scale`: as read_last_layer gives it.
+plane_bin read_bin(surface_point surface, map_area area, float mass_scale, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
     vec4 place = filtered_layer(moment_map, area, layers * index);
     vec4 spread = filtered_layer(moment_map, area, layers * index + 1u);
     float scale = 1.0 / max(place.x, 1e-6);
     vec4 range = binning.bins[index].range;
     plane_bin bin;
-    bin.mass = place.x * binning.largest.x;
+    bin.mass = mass_scale * place.x * binning.largest.x;
     vec2 mean = place.yz * scale;
     bin.mean = mean * range.z + range.xy;
     bin.axis = direction_from_plane(bin.mean);

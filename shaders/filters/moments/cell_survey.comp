@@ -24,7 +24,6 @@ layout(local_size_x = THREADS) in;
 
 layout(constant_id = SPECIALISE_BRIGHT_TEXELS) const bool BRIGHT_TEXELS = false;
 
-layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
 layout(set = 0, binding = 16, std430) writeonly buffer extremes_block {
     survey_extremes extremes[];

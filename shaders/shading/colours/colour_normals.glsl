@@ -7,8 +7,7 @@
 // Stein, 1981, Estimation of the Mean of a Multivariate Normal Distribution, lemma 1. For light
 // from all around the same holds with the gradient of irradiance in place of l and P.
 //
-// Under a mask all of these are means over what it keeps; filters have the normals of all texels,
-// so that what their means miss is added, too.
+// Under a mask all of these, and what filters have, are means over what it keeps.
 //
 // Included after the filter. One that filters no maps has nothing to add.
 
@@ -26,17 +25,13 @@ layout(constant_id = SPECIALISE_COLOUR_NORMALS) const bool COLOUR_NORMALS = fals
 
 layout(LOBE_DESCRIPTOR(47)) uniform sampler2DArray colour_normal_map;
 
-// Below this share of a footprint, what a mask keeps of it is not known well in half floats.
-const float LEAST_KEPT = 1e-3;
-
 // Facets of closed surfaces are masked one by one, of which this knows nothing.
 const bool COLOURS_TURN = COLOUR_NORMALS && DIFFUSE && !CLOSED;
 
 struct colour_normals {
-    mat3 covariance;  // columns: of each channel with the normal
-    vec3 colour;      // mean diffuse colour
-    vec3 mean;        // normal, of what a mask keeps
-    vec3 mean_of_all; // of all texels, as filters have it
+    mat3 covariance; // columns: of each channel with the normal
+    vec3 colour; // mean diffuse colour
+    vec3 mean;   // normal
 };
 colour_normals drawn_colours;
 
@@ -59,19 +54,15 @@ void fetch_colour_normals(surface_point surface) {
         factor *= 1.0 - material.metallic;
     // A texel of level 0 has one colour and one normal.
     float share = may_see_level_0(lobe_map()) ? clamp(area.level, 0.0, 1.0) : 1.0;
-    vec4 all = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN);
-    // Where points of the map saw nothing that is kept, nothing is known.
-    float per_kept = ALPHA_MASK ? (all.w > LEAST_KEPT ? 1.0 / all.w : 0.0) : 1.0;
-    vec3 mean = all.xyz;
-    if (ALPHA_MASK && per_kept > 0.0)
-        mean = per_kept * filtered_layer(colour_normal_map, area, COLOUR_NORMALS_KEPT).xyz;
+    vec4 mean = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN);
+    float scale = per_kept(mean.w);
+    drawn_colours.mean = scale * mean.xyz;
     for (uint k = 0u; k < 3u; ++k) {
-        vec4 own = per_kept * filtered_layer(colour_normal_map, area, k);
-        drawn_colours.covariance[k] = share * factor[k] * (own.xyz - own.w * mean);
+        vec4 own = scale * filtered_layer(colour_normal_map, area, k);
+        drawn_colours.covariance[k] =
+            share * factor[k] * (own.xyz - own.w * drawn_colours.mean);
         drawn_colours.colour[k] = factor[k] * own.w;
     }
-    drawn_colours.mean = mix(all.xyz, mean, share);
-    drawn_colours.mean_of_all = all.xyz;
 }
 
 // `reflected`: reflectance times cosine of the means. Where the filter has less than the mean of
@@ -88,9 +79,7 @@ vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
     vec3 mean = drawn_colours.mean, colour = let_through * drawn_colours.colour;
     float facing = normal_below(dot(mean, incoming) / normal_deviation(mean));
     vec3 growth = facing * let_through * (incoming * drawn_colours.covariance);
-    vec3 means = mean_cosine(drawn_colours.mean_of_all, incoming) * colour;
-    if (ALPHA_MASK)
-        growth += mean_cosine(mean, incoming) * colour - means;
+    vec3 means = mean_cosine(mean, incoming) * colour;
     vec3 loss = min(growth + max(means - reflected, 0.0), 0.0);
     return max(reflected + max(growth, loss), 0.0);
 }
@@ -120,10 +109,6 @@ vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
         along * (axis * drawn_colours.covariance) +
         irradiance_growth(surface, size, axis, first) * (first * drawn_colours.covariance) +
         irradiance_growth(surface, size, axis, second) * (second * drawn_colours.covariance);
-    if (ALPHA_MASK)
-        reflected += (mean_irradiance(surface, drawn_colours.mean) -
-                      mean_irradiance(surface, drawn_colours.mean_of_all)) *
-                     drawn_colours.colour;
     return max(reflected, 0.0);
 }
 #endif

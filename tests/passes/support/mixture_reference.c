@@ -141,6 +141,7 @@ static void add_moments(const lobe_material *material, const double normal[3],
                         const double width[4], double share, double *first, double *second) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     first[2] += share * normal[2];
+    second[3] += share;
     for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
         double local[3] = {0, 0, 1}, axis[3];
         for (int j = 0; j < 3 && !microfacet; j++)

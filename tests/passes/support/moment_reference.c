@@ -86,9 +86,10 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
             lobe.mass /= points.count;
             reference_add_plane_lobe(partition, &lobe, &layers, x, y);
         }
-        for (int j = 0; partition->colour && j < 3; j++)
+        // What all texels count, too, which is one without a mask.
+        for (int j = 0; partition->colour && j < 4; j++)
             reference_texel(&layers, x, y, last)[j] +=
-                diffuse[j] / partition->colour_scale / points.count;
+                (j < 3 ? diffuse[j] / partition->colour_scale : 1) / points.count;
     }
     return layers;
 }
