@@ -230,8 +230,8 @@ static int run(int argc, char **argv) {
         {.name = "part",
          .kind = OPTION_CHOICE,
          .argument = "PART",
-         .summary = "measure only along the reference's silhouettes, or only what is inside them\n"
-                    "and no background; the reference must have a depth layer (render --aov)",
+         .summary = "measure only along the reference's silhouettes, or only what is inside them, "
+                    "without background; the reference must have a depth layer (render --aov)",
          .target = &job.part,
          .fallback = "all",
          .choices = part_names},
