@@ -3,11 +3,13 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include <spirv-tools/optimizer.hpp>
 
 #include "third_party/spirv_constants.hpp"
+#include "third_party/spirv_dead_blocks.hpp"
 
 namespace {
 
@@ -18,7 +20,8 @@ bool specialise(const spirv_source &source, char *message) {
             std::snprintf(message, SPIRV_MESSAGE_SIZE, "%s", text);
         });
     std::vector<uint32_t> words;
-    const spirv_frozen frozen = spirv_freeze_constants(source);
+    spirv_frozen frozen = spirv_freeze_constants(source);
+    const std::vector<uint32_t> live = spirv_empty_dead_blocks(std::move(frozen.words));
     // It analyses the whole module, which takes as long as all that follows.
     if (frozen.has_operations)
         optimiser.RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
@@ -26,7 +29,7 @@ bool specialise(const spirv_source &source, char *message) {
         .RegisterPass(spvtools::CreateAggressiveDCEPass());
     spvtools::OptimizerOptions options;
     options.set_run_validator(false);
-    if (!optimiser.Run(frozen.words.data(), frozen.words.size(), &words, options))
+    if (!optimiser.Run(live.data(), live.size(), &words, options))
         return false;
     source.take(source.user, words.data(), words.size());
     return true;

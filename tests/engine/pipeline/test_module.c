@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include <spirv-tools/libspirv.h>
+
 #include "engine/device/device.h"
 #include "engine/pipeline/module.h"
 #include "engine/shader/shaders.h"
@@ -14,6 +16,8 @@
 // Numbers of the SPIR-V specification.
 enum {
     OP_CONSTANT = 43,
+    OP_SPECIALISATION_TRUE = 48,
+    OP_SPECIALISATION_FALSE = 49,
     OP_SPECIALISATION_OPERATION = 52,
     OP_DECORATE = 71,
     OP_IMAGE_SAMPLE_EXPLICIT_LOD = 88,
@@ -145,6 +149,79 @@ static void operations_on_constants_are_computed(void **state) {
     check_operations(50021, 50021, true);
 }
 
+// ---------------------------------------------------------------------------------------------
+// All shaders of the library
+
+typedef struct validation {
+    const char *shader;
+    spv_context context;
+} validation;
+
+static void validate(void *user, const uint32_t *words, size_t length) {
+    const validation *checked = user;
+    spv_diagnostic diagnostic = NULL;
+    if (spvValidateBinary(checked->context, words, length, &diagnostic) != SPV_SUCCESS)
+        fail_msg("%s: %s", checked->shader, diagnostic ? diagnostic->error : "invalid");
+}
+
+static bool is_local_size(const engine_shader *shader, uint32_t id) {
+    return id == shader->local_size_ids[0] || id == shader->local_size_ids[1] ||
+           id == shader->local_size_ids[2];
+}
+
+/// Whether the shader says so of a constant, by its number.
+static bool is_boolean(const engine_shader *shader, uint32_t number) {
+    const uint32_t *words = shader->words;
+    uint32_t id = 0;
+    for (size_t i = HEADER_WORDS; i < shader->word_count; i += words[i] >> 16) {
+        const uint32_t operation = words[i] & 0xffff;
+        if (operation == OP_DECORATE && words[i + 2] == DECORATION_SPEC_ID &&
+            words[i + 3] == number)
+            id = words[i + 1];
+        if (operation == OP_SPECIALISATION_TRUE || operation == OP_SPECIALISATION_FALSE)
+            if (words[i + 2] == id)
+                return true;
+    }
+    return false;
+}
+
+/// By chance. Numbers are 1 to 4, for some are lengths of arrays; groups are 4 x 4 x 4.
+static uint32_t some_value(const engine_shader *shader, uint32_t number, uint32_t *seed) {
+    *seed = *seed * 1664525 + 1013904223;
+    if (is_local_size(shader, number))
+        return 4;
+    return is_boolean(shader, number) ? *seed >> 31 : 1 + (*seed >> 30);
+}
+
+static void check_validity(const engine_shader *shader, validation *checked, uint32_t *seed) {
+    spirv_constant constants[128];
+    assert_true(shader->specialisation_count <= 128);
+    for (size_t i = 0; i < shader->specialisation_count; i++) {
+        const uint32_t number = shader->specialisation_ids[i];
+        constants[i] = (spirv_constant){number, some_value(shader, number, seed)};
+    }
+    const spirv_source source = {shader->words, shader->word_count,
+                                 constants,     shader->specialisation_count,
+                                 validate,      checked};
+    char message[SPIRV_MESSAGE_SIZE];
+    checked->shader = shader->name;
+    if (!third_party_spirv_specialise(&source, message))
+        fail_msg("%s: %s", shader->name, message);
+}
+
+static void shaders_of_the_library_stay_valid(void **state) {
+    (void)state;
+    validation checked = {.context = spvContextCreate(SPV_ENV_VULKAN_1_3)};
+    uint32_t seed = 1;
+    // Neighbours in the list are variants of one source.
+    for (size_t i = 0; i < engine_embedded_shaders_count; i += 4) {
+        const engine_shader *shader = find(engine_embedded_shaders[i].name);
+        if (shader->specialisation_count > 0)
+            check_validity(shader, &checked, &seed);
+    }
+    spvContextDestroy(checked.context);
+}
+
 static void damaged_words_are_refused(void **state) {
     (void)state;
     const engine_shader *shader = find("reflection.comp");
@@ -165,6 +242,7 @@ int main(void) {
         WITH_DEVICE(constants_become_values),
         WITH_DEVICE(unreachable_code_is_removed),
         WITH_DEVICE(operations_on_constants_are_computed),
+        WITH_DEVICE(shaders_of_the_library_stay_valid),
         WITH_DEVICE(damaged_words_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
