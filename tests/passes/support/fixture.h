@@ -19,6 +19,7 @@ typedef struct fixture {
     lobe_graph *graph;       ///< for tests that declare passes themselves
     lobe_renderer *renderer; ///< for tests that draw pictures
     const lobe_scene *held;  ///< see hold_scene
+    const char *fits_cache;  ///< folder for the maps that pictures fit; NULL: none
     lobe_host host;
     unsigned errors, warnings; ///< lines so far
     char error[1024];          ///< the last error line

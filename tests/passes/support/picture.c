@@ -29,6 +29,7 @@ lobe_frame draw(fixture *f, const picture_request *request) {
                                                   .width = request->width,
                                                   .height = request->height,
                                                   .reference.samples = request->samples,
+                                                  .fits.cache = f->fits_cache,
                                                   .aov = request->outputs,
                                               },
                                               &frame);

@@ -337,8 +337,8 @@ static void grooves_shadow_each_other(void **state) {
         lobe_scene *scene = groove_scene((double[]){cos(angle), sin(angle), 0});
         picture_request request = {.filter = "reference",
                                    .settings = {"displacement=geometry", "shadows=1024"},
-                                   .width = 2 * EXTENT,
-                                   .height = 2 * EXTENT,
+                                   .width = EXTENT,
+                                   .height = EXTENT,
                                    .samples = 8};
         lobe_frame shadowed = draw_scene(f, scene, &request);
         request.settings[1] = NULL;
