@@ -29,14 +29,16 @@ static const char *describe_worth(const sweep_scene *scene, const sweep_row *row
 
 static void print_row(const sweep_results *results, const sweep_scene *scene,
                       const sweep_row *row) {
-    char settings[72], wall[16], cpu[16], flicker[16], worth[16], gain[16];
+    char settings[72], wall[16], cpu[16], inside[16], edges[16], flicker[16], worth[16], gain[16];
     describe_settings(row, settings, sizeof settings);
     printf("  %-10s %-20s %10.2f %10.2f %10.2f %10s %10s "
-           "%8.1f %8.1f %9.4f %9.4f %9.4f %9.3f %9s %8s %8s\n",
+           "%8.1f %8.1f %9.4f %9s %11s %9.4f %9.4f %9.3f %9s %8s %8s\n",
            row->filter, settings, row->building_ms, row->shading_ms, row->retained_ms,
            known(row->changed_wall_ms, "%.2f", wall),
            known(row->changed_caller_cpu_ms, "%.2f", cpu), (double)row->memory_bytes / (1 << 20),
-           row->bytes_per_texel, sweep_error_without_noise(scene, row), row->error.relative_l1,
+           row->bytes_per_texel, sweep_error_without_noise(scene, row),
+           known(row->inside_relative_l2, "%.4f", inside),
+           known(row->silhouettes_relative_l2, "%.4f", edges), row->error.relative_l1,
            row->error.flip, row->error.mean_ratio,
            known(row->flicker >= 0 ? row->flicker : (double)NAN, "%.4f", flicker),
            describe_worth(scene, row, worth),
@@ -76,12 +78,13 @@ static void print_scene(const sweep_results *results, const sweep_scene *scene) 
         printf("  skipped: %s\n", scene->skipped);
         return;
     }
-    printf("  %-10s %-20s %10s %10s %10s %10s %10s %8s %8s %9s %9s %9s %9s %9s %8s %8s\n", "filter",
-           "setting", "building", "shading", "retained", "changed,", "caller's", "MiB", "bytes a",
-           "rel. L2", "rel. L1", "FLIP", "mean", "flicker", "worth", "gain in");
-    printf("  %-10s %-20s %10s %10s %10s %10s %10s %8s %8s %9s %9s %9s %9s %9s %8s %8s\n", "", "",
-           "ms", "ms", "ms", "wall ms", "CPU ms", "", "texel", "", "", "", "ratio", "", "samples",
-           "time");
+    printf("  %-10s %-20s %10s %10s %10s %10s %10s %8s %8s %9s %9s %11s %9s %9s %9s %9s %8s %8s\n",
+           "filter", "setting", "building", "shading", "retained", "changed,", "caller's", "MiB",
+           "bytes a", "rel. L2", "inside", "silhouettes", "rel. L1", "FLIP", "mean", "flicker",
+           "worth", "gain in");
+    printf("  %-10s %-20s %10s %10s %10s %10s %10s %8s %8s %9s %9s %11s %9s %9s %9s %9s %8s %8s\n",
+           "", "", "ms", "ms", "ms", "wall ms", "CPU ms", "", "texel", "", "", "", "", "", "ratio",
+           "", "samples", "time");
     for (size_t i = 0; i < results->row_count; i++) {
         if (is_of(&results->rows[i], scene))
             print_row(results, scene, &results->rows[i]);

@@ -110,6 +110,8 @@ static const member row_members[] = {
     MEMBER(sweep_row, bytes_per_texel, MEMBER_NUMBER),
     NESTED(sweep_row, error, &errors_structure),
     NESTED(sweep_row, error_lobe_base, &errors_structure),
+    MEMBER(sweep_row, inside_relative_l2, MEMBER_OPTIONAL_NUMBER),
+    MEMBER(sweep_row, silhouettes_relative_l2, MEMBER_OPTIONAL_NUMBER),
     MEMBER(sweep_row, flicker, MEMBER_NUMBER),
     MEMBER(sweep_row, picture, MEMBER_OPTIONAL_TEXT),
 };

@@ -57,6 +57,9 @@ typedef struct sweep_row {
     double bytes_per_texel;        ///< of filtered maps, for each texel of base maps; 0: no maps
     error_metrics error;           ///< of the still picture against the reference
     error_metrics error_lobe_base; ///< against one whose base lobes were converted first
+    /// Of `error`, over the pixels inside surfaces and over those along silhouettes (see
+    /// tools/compare/silhouettes.h), without the reference's noise. NAN: none, or not measured.
+    double inside_relative_l2, silhouettes_relative_l2;
     /// Along the path: |(a' - a) - (r' - r)| / |r|, relative L2 over all pairs of frames, with a
     /// and a' of the filter, r and r' of the reference, without the reference's noise. Negative:
     /// not measured.

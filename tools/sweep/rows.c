@@ -129,6 +129,7 @@ static lobe_result name_row(const scene_run *run, const sweep_variant *variant, 
     row->settings = calloc(LOBE_MAXIMUM_KNOBS, sizeof *row->settings);
     if (!row->scene || !row->filter || !row->settings)
         return scene_run_out_of_memory(run);
+    row->inside_relative_l2 = row->silhouettes_relative_l2 = NAN; // until measured
     row->setting_count = sweep_variant_settings(variant, row->settings);
     snprintf(row->varied, sizeof row->varied, "%s", variant->varied);
     return LOBE_OK;

@@ -67,6 +67,8 @@ static lobe_result measure_error(const scene_run *run, const sweep_variant *vari
     if (result != LOBE_OK || run->job->brief)
         return result;
     result = compare(run, &still->radiance, &run->truth.lobe_base, row, &row->error_lobe_base);
+    if (result == LOBE_OK)
+        result = sweep_parts_measure(run->job, &still->radiance, &run->truth, row);
     if (result == LOBE_OK && row->varied[0] == '\0')
         result = sweep_pictures_write(run->job, row->scene, variant, scene_run_samples(variant),
                                       row->filter, still, &row->picture);

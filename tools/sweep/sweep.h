@@ -11,6 +11,7 @@
 
 #include "tools/bench/bench.h"
 #include "tools/cli/scene_options.h"
+#include "tools/compare/silhouettes.h"
 #include "tools/sweep/results.h"
 
 /// `lobe bench --sweep`: declarations shared by its files.
@@ -20,6 +21,7 @@
 ///     subject.c    a scene in an environment: its name, and a check of earlier results
 ///     plan.c       which rows there are
 ///     truth.c      references, and the error of supersampling
+///     parts.c      errors inside surfaces and along silhouettes
 ///     measure.c    all rows of one scene; scene_run.h lists its parts
 ///     flicker.c    change along the scene's path
 ///     bandwidth.c  plain copies of as many bytes as passes move
@@ -139,6 +141,8 @@ lobe_result sweep_subject_check(const sweep_job *job, const sweep_subject *subje
 /// The references of a scene.
 typedef struct sweep_truth {
     lobe_image image, lobe_base; ///< the second with base lobes converted; empty in brief sweeps
+    bool *pixels[COMPARE_PART_COUNT]; ///< of each part; NULL: all, none, or a brief sweep
+    double noise[COMPARE_PART_COUNT]; ///< in `image`, over each part, as in sweep_scene
 } sweep_truth;
 
 /// Work of sweep_truth_render, in the unit of progress_expect: frames of one sample.
@@ -149,6 +153,17 @@ double sweep_truth_work(const sweep_job *job);
 lobe_result sweep_truth_render(const sweep_job *job, const lobe_scene *scene,
                                lobe_renderer *renderer, sweep_scene *entry, sweep_truth *truth);
 void sweep_truth_free(sweep_truth *truth);
+
+// ---------------------------------------------------------------------------------------------
+// parts.c
+
+/// Finds the parts of the reference from its `normal_depth`, which is overwritten.
+lobe_result sweep_parts_find(const sweep_job *job, lobe_image *normal_depth, sweep_truth *truth);
+void sweep_parts_free(sweep_truth *truth);
+
+/// Measures a row's errors over the parts.
+lobe_result sweep_parts_measure(const sweep_job *job, const lobe_image *image,
+                                const sweep_truth *truth, sweep_row *row);
 
 // ---------------------------------------------------------------------------------------------
 // measure.c

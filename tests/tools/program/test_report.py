@@ -74,6 +74,7 @@ def one_row(scene, name, factor, varied="", value="a"):
             "changed_process_cpu_ms": 3.5 * total, "passes": passes(name, total),
             "memory_bytes": 1 << 25, "bytes_per_texel": BYTES[name], "error": metrics(error),
             "error_lobe_base": metrics(0.8 * error),
+            "inside_relative_l2": 0.7 * error, "silhouettes_relative_l2": 1.3 * error,
             "flicker": -1 if name == "reference" else 0.6 * error,
             "picture": None if varied else f"pictures/{name}.exr"}
 
@@ -224,6 +225,7 @@ def expected_cells(row):
             row["changed_ms"], row["changed_wall_ms"], row["changed_caller_cpu_ms"],
             row["changed_process_cpu_ms"],
             row["bytes_per_texel"], row["memory_bytes"] / 2 ** 20, row["error"]["relative_l2"],
+            row["inside_relative_l2"], row["silhouettes_relative_l2"],
             row["error"]["relative_l1"], row["error"]["flip"],
             row["error_lobe_base"]["relative_l2"], row["error"]["mean_ratio"], row["flicker"],
             worth, gain]

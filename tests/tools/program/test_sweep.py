@@ -74,6 +74,10 @@ def test_results_have_their_form():
         check(sorted(row["error"]) == ERRORS and sorted(row["error_lobe_base"]) == ERRORS,
               str(row))
         check(row["memory_bytes"] > 0 and row["flicker"] >= 0, str(row))
+        parts = row["inside_relative_l2"], row["silhouettes_relative_l2"]
+        check(parts[0] >= 0, str(row))
+        # The plane of bumps fills the picture; that of the checkerboard ends at the horizon.
+        check(parts[1] is None if row["scene"] == "bumps" else parts[1] >= 0, str(row))
 
 
 def test_each_knob_is_varied_alone():

@@ -42,6 +42,8 @@ static sweep_row rows[] = {
      .bytes_per_texel = 21.5,
      .error = {0.125, 0.25, 0.5, 0.0625, 33.5, 1.5, 0.75},
      .error_lobe_base = {.psnr = INFINITY},
+     .inside_relative_l2 = 0.375,
+     .silhouettes_relative_l2 = 0.625,
      .flicker = 0.0078125,
      .picture = "a.pictures/cloth-lobes.exr"},
     {.scene = "cloth",
@@ -161,6 +163,8 @@ static void assert_rows_equal(const sweep_row *a, const sweep_row *b) {
     assert_true(a->memory_bytes == b->memory_bytes && a->bytes_per_texel == b->bytes_per_texel);
     assert_errors_equal(&a->error, &b->error);
     assert_errors_equal(&a->error_lobe_base, &b->error_lobe_base);
+    assert_true(a->inside_relative_l2 == b->inside_relative_l2 &&
+                a->silhouettes_relative_l2 == b->silhouettes_relative_l2);
     assert_true(a->flicker == b->flicker);
     assert_texts_equal(a->picture, b->picture);
 }

@@ -55,6 +55,8 @@ class Row:
     error: Errors
     error_lobe_base: Errors
     flicker: float
+    inside_relative_l2: float = NAN
+    silhouettes_relative_l2: float = NAN
     environment_ms: float = NAN
     changed_ms: float = NAN
     changed_wall_ms: float = NAN
