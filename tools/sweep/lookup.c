@@ -26,12 +26,15 @@ bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *env
 
 /// The reference is the mean of two independent ones. Products of a picture's distances from both
 /// estimate its squared error; what exceeds that in the squared distance from the mean is noise
-/// (see merge_parts in truth.c).
-double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
-    const double error = row->error.relative_l2;
-    if (isnan(scene->noise) || isnan(error))
+/// (see noise_of in truth.c).
+double sweep_without_noise(double error, double noise) {
+    if (isnan(noise) || isnan(error))
         return error;
-    return error > scene->noise ? sqrt(error * error - scene->noise * scene->noise) : 0;
+    return error > noise ? sqrt(error * error - noise * noise) : 0;
+}
+
+double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row) {
+    return sweep_without_noise(row->error.relative_l2, scene->noise);
 }
 
 /// The number of samples at which supersampling has an error, between two measured.

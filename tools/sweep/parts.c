@@ -39,9 +39,8 @@ static lobe_result measure(const sweep_job *job, const lobe_image *image, const 
                                                  .pixels = truth->pixels[part]};
     const lobe_result result =
         error_metrics_measure(image, &truth->image, &parameters, job->bench.host, &error, NULL);
-    const double noise = isnan(truth->noise[part]) ? 0 : truth->noise[part];
     if (result == LOBE_OK)
-        *relative_l2 = sqrt(fmax(error.relative_l2 * error.relative_l2 - noise * noise, 0));
+        *relative_l2 = sweep_without_noise(error.relative_l2, truth->noise[part]);
     return result;
 }
 

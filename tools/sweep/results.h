@@ -126,7 +126,9 @@ const sweep_scene *sweep_results_scene(const sweep_results *results, const char 
 bool sweep_scene_is(const sweep_scene *entry, const char *scene, const char *environment,
                     const char *lighting);
 
-/// A row's relative L2 error without the noise in its scene's reference; 0 if it is not larger.
+/// A relative L2 error without the noise (NAN: unknown) in the reference; 0 if it is not larger.
+double sweep_without_noise(double error, double noise);
+/// That of a row, over the whole picture.
 double sweep_error_without_noise(const sweep_scene *scene, const sweep_row *row);
 
 /// A row's worth in samples: how many samples per pixel supersampling needs for the same error,
