@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compiles the GLSL passes of a folder to SPIR-V and writes them as one C table.
+"""Compiles the GLSL passes of a folder to SPIR-V and writes a C table of them.
 
 Each *.vert, *.frag and *.comp below the folder is a pass, named by its path
 ("maps/level_reduction.comp"). One that includes "filter.glsl" is compiled once for each file of
@@ -8,8 +8,8 @@ filters/, which replaces that include. A pass or a filter may name macros that i
 filters/lobes.glsl give shading/shading_lobes.frag, shading/shading_lobes_environment.frag, and so
 on. The table records the source of each entry, so that the library can recompile it at run time.
 
-Compiled words are kept in a folder beside the output: only shaders whose text, or that of a file
-they include, has changed are compiled again.
+Compiled words are kept in a folder beside the output, from where the table includes them: only
+shaders whose text, or that of a file they include, has changed are compiled again.
 """
 
 import argparse
@@ -18,7 +18,6 @@ import functools
 import hashlib
 import os
 import re
-import struct
 import subprocess
 import sys
 import tempfile
@@ -146,12 +145,11 @@ def compile_shader(tools, folder, includes, shader, scratch):
 
 
 def words_of(tools, folder, includes, shader, scratch):
-    """The SPIR-V words of one shader, and the file in which they are kept."""
+    """The file in which the SPIR-V words of one shader are kept."""
     kept = kept_folder(tools) / digest_of(tools, folder, includes, shader)
     if not kept.is_file():
         replace_file(kept, compile_shader(tools, folder, includes, shader, scratch))
-    code = kept.read_bytes()
-    return struct.unpack(f"<{len(code) // 4}I", code), kept
+    return kept
 
 
 def kept_folder(arguments):
@@ -165,20 +163,31 @@ def remove_others(folder, kept):
             path.unlink()
 
 
-def table_text(table, shaders, codes):
-    """The C source of the table."""
+def quoted(text):
+    """As a string of C or of the assembler."""
+    for character, escape in (("\\", "\\\\"), ('"', '\\"'), ("\n", "\\n")):
+        text = text.replace(character, escape)
+    return f'"{text}"'
+
+
+def inclusion(name, path):
+    """Declares an array of words and lets the assembler read it from a file: a compiler takes half
+    a minute for all shaders."""
+    directives = (".pushsection .rodata", ".balign 4", f".globl {name}", f".hidden {name}",
+                  f"{name}: .incbin {quoted(str(path))}", ".popsection")
+    return (f'extern __attribute__((visibility("hidden"))) const uint32_t {name}[];\n'
+            f'__asm__({quoted(chr(10).join(directives))});')
+
+
+def table_text(table, shaders, kept):
+    """The C source of the table. Its paths start where the build's commands, compilers too, run."""
     lines = ["/* Made by shaders/embed.py from GLSL. */", '#include "engine/shader/shader.h"', ""]
-    for index, words in enumerate(codes):
-        # As a string: compilers read that several times as fast as a list of numbers.
-        lines.append(f"static const uint32_t words_{index}[{len(words)}] =")
-        lines += ['    U"' + "".join(f"\\x{word:x}" for word in words[start:start + 8]) + '"'
-                  for start in range(0, len(words), 8)]
-        lines.append("    ;")
+    lines += [inclusion(f"{table}_words_{index}", path) for index, path in enumerate(kept)]
     lines.append(f"const engine_shader_code {table}[] = {{")
-    for index, shader in enumerate(shaders):
+    for index, (shader, path) in enumerate(zip(shaders, kept)):
         definitions = " ".join(shader.definitions)
         lines.append(f'    {{"{shader.name}", "{shader.source}", "{definitions}", '
-                     f'"{shader.substitute}", words_{index}, sizeof words_{index}}},')
+                     f'"{shader.substitute}", {table}_words_{index}, {path.stat().st_size}}},')
     # C has no empty arrays: the last entry is a terminator and not counted.
     lines += ["    {0},", "};", f"const size_t {table}_count = {len(shaders)};", ""]
     return "\n".join(lines)
@@ -234,8 +243,8 @@ def main():
         if failures:
             print("\n".join(failures), file=sys.stderr)
             return 1
-        codes, kept = zip(*(future.result() for future in futures)) if futures else ((), ())
-    replace_file(arguments.output, table_text(arguments.table, shaders, codes).encode())
+        kept = [future.result() for future in futures]
+    replace_file(arguments.output, table_text(arguments.table, shaders, kept).encode())
     remove_others(kept_folder(arguments), kept)
     write_dependencies(arguments.depfile, arguments.output, folders)
     return 0

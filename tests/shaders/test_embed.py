@@ -1,6 +1,7 @@
 """The build step that compiles shaders: an error in one stops it, and leaves no table."""
 
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ void main() { f(); }
 """
 
 # Numbers of the SPIR-V specification.
+MAGIC = 0x07230203
 OP_FUNCTION, OP_FUNCTION_CALL, OP_DECORATE = 54, 57, 71
 SPECIALISATION, BINDING = 1, 33
 
@@ -34,11 +36,13 @@ def operations(words, code):
 
 
 def words_in(table):
-    return [int(word, 16) for word in re.findall(r"\\x([0-9a-f]+)", table)]
+    """The words of all shaders of a table."""
+    content = b"".join(Path(path).read_bytes() for path in re.findall(r'incbin \\"(.*?)\\"', table))
+    return list(struct.unpack(f"<{len(content) // 4}I", content))
 
 
 def embed_in(scratch, sources, compiler=COMPILER):
-    """Returns exit status, output, and the table (None if none was written)."""
+    """Returns exit status, output, the table (None if none was written), and its words."""
     folder, output = Path(scratch) / "shaders", Path(scratch) / "table.c"
     for name, text in sources.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -48,7 +52,8 @@ def embed_in(scratch, sources, compiler=COMPILER):
          "--optimiser", OPTIMISER, "--folder", folder, "--table", "table", "--output", output,
          "--depfile", f"{scratch}/table.d"],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    return done.returncode, done.stdout, output.read_text() if output.exists() else None
+    table = output.read_text() if output.exists() else None
+    return done.returncode, done.stdout, table, words_in(table) if table else None
 
 
 def embed(sources, **options):
@@ -57,34 +62,35 @@ def embed(sources, **options):
 
 
 def refuses(sources, *words, **options):
-    status, printed, table = embed(sources, **options)
+    status, printed, table, _ = embed(sources, **options)
     assert status == 1 and table is None, (status, table)
     for word in words:
         assert word in printed, printed
 
 
 def test_shaders_become_a_table():
-    status, printed, table = embed({"b.comp": GOOD, "a.comp": GOOD, "notes.txt": "no shader"})
+    sources = {"b.comp": GOOD, "a.comp": GOOD, "notes.txt": "no shader"}
+    status, printed, table, words = embed(sources)
     assert status == 0 and not printed, printed
     assert table.index('"a.comp"') < table.index('"b.comp"')
-    assert "table_count = 2;" in table and "U\"\\x7230203\\x" in table
+    assert "table_count = 2;" in table and words.count(MAGIC) == 2
 
 
 def test_filters_and_macros_give_variants():
     source = LAYERED.replace("void main", "#pragma variants ENVIRONMENT AOV\nvoid main")
-    status, printed, table = embed({"pass.comp": source, "filters/flat.glsl": "void f() {}\n",
-                                    "filters/deep.glsl": "#pragma variants DEEP\nvoid f() {}\n"})
+    status, printed, table, _ = embed({"pass.comp": source, "filters/flat.glsl": "void f() {}\n",
+                                       "filters/deep.glsl": "#pragma variants DEEP\nvoid f() {}\n"})
     assert status == 0 and not printed, printed
     for name in ("flat", "flat_environment", "flat_aov", "flat_environment_aov", "deep",
                  "deep_deep", "deep_environment_deep", "deep_environment_aov_deep"):
         assert f'"pass_{name}.comp"' in table, name
     assert "table_count = 12;" in table
-    status, _, table = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
+    status, _, table, _ = embed({"pass.comp": LAYERED, "filters/flat.glsl": "void f() {}\n"})
     assert status == 0 and '"pass_flat.comp"' in table and "aov" not in table
 
 
 def test_unused_bindings_and_constants_stay():
-    status, _, table = embed({"a.comp": """#version 460
+    status, _, _, words = embed({"a.comp": """#version 460
 layout(local_size_x = 1) in;
 layout(constant_id = 3) const uint UNUSED = 5;
 layout(binding = 2) uniform sampler2D unused;
@@ -92,14 +98,13 @@ void f() {}
 void main() { f(); }
 """})
     assert status == 0
-    words = words_in(table)
     assert operations(words, OP_FUNCTION_CALL) == [], "a function is not inlined"
     decorations = [operands[1:] for operands in operations(words, OP_DECORATE)]
     assert [SPECIALISATION, 3] in decorations and [BINDING, 2] in decorations, decorations
 
 
 def test_functions_that_return_early_stay_as_they_are():
-    status, printed, table = embed({"a.comp": """#version 460
+    status, printed, _, words = embed({"a.comp": """#version 460
 layout(local_size_x = 1) in;
 layout(binding = 0) buffer numbers { float number; };
 float early(float x) { if (x > 0) return 1; return x; }
@@ -107,7 +112,6 @@ float late(float x) { return 2 * x; }
 void main() { number = early(number) + late(number); }
 """})
     assert status == 0 and not printed, printed
-    words = words_in(table)
     assert len(operations(words, OP_FUNCTION_CALL)) == 1
     assert [operands[2] for operands in operations(words, OP_FUNCTION)] == [0, 0], "marks are left"
 
@@ -129,12 +133,12 @@ void main() { number = HALF; }
 
         def compiled(**sources):
             log.write_text("")
-            status, printed, table = embed_in(
+            status, printed, _, words = embed_in(
                 scratch, {name.replace("_", "."): text for name, text in sources.items()} | library,
                 compiler=str(compiler))
             assert status == 0, printed
             return sorted(Path(line.split()[-1]).name for line in log.read_text().splitlines()), \
-                table
+                words
 
         library = {"lib/half.glsl": half(0.5)}
         assert compiled(a_comp=GOOD, b_comp=reader)[0] == ["a.comp", "b.comp"]
