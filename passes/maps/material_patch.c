@@ -47,13 +47,17 @@ void passes_material_patch_point(const material_patch_place *place, uint32_t i, 
     point[1] = place->top + i / place->columns + 0.5 + TEXEL_POINT;
 }
 
-bool passes_material_patch_read(const device_material *material, uint32_t index,
-                                material_patch *patch) {
+bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,
+                                uint32_t index, material_patch *patch) {
     const material_patch_place at = passes_material_patch_place(material, index);
+    uint32_t kept = 0;
     patch->count = 0;
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
         passes_material_patch_point(&at, i, point);
+        if (passes_lobe_mask_cuts(mask, (uint32_t)point[0], (uint32_t)point[1]))
+            continue;
+        kept++;
         uint32_t count =
             passes_material_lobes_read(material, point[0], point[1], &patch->lobes[patch->count]);
         if (count == 0)
@@ -61,7 +65,7 @@ bool passes_material_patch_read(const device_material *material, uint32_t index,
         patch->count += count;
     }
     for (size_t i = 0; i < patch->count; i++)
-        patch->lobes[i].weight /= (double)at.columns * at.rows;
+        patch->lobes[i].weight /= kept;
     return true;
 }
 

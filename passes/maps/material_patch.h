@@ -1,6 +1,7 @@
 #ifndef PASSES_MAPS_MATERIAL_PATCH_H
 #define PASSES_MAPS_MATERIAL_PATCH_H
 
+#include "passes/upload/colours/lobe_mask.h"
 #include "passes/upload/material_lobes.h"
 
 /// The lobes of a small square of a material's maps, as a pixel's footprint may contain them.
@@ -11,7 +12,7 @@ enum { MATERIAL_PATCHES = 12, MATERIAL_PATCH_EXTENT = 24, MATERIAL_PATCH_DIRECTI
 typedef struct material_patch {
     material_lobe lobes[MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT *
                         LOBE_MATERIAL_MAXIMUM_LOBES]; ///< weights add up to one
-    size_t count;
+    size_t count;                                     ///< 0: a mask cuts all away
 } material_patch;
 
 /// Where a patch lies in the lobe_grid, texels.
@@ -23,9 +24,10 @@ material_patch_place passes_material_patch_place(const device_material *material
 /// Where texel `i` of the patch's columns * rows is read, in texels of the lobe_grid.
 void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]);
 
-/// Patch `index` of MATERIAL_PATCHES. False if a map has a format that the host does not read.
-bool passes_material_patch_read(const device_material *material, uint32_t index,
-                                material_patch *patch);
+/// What a mask keeps of patch `index` of MATERIAL_PATCHES. False if a map has a format that the
+/// host does not read.
+bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,
+                                uint32_t index, material_patch *patch);
 
 /// The sum of all lobes at a unit direction.
 double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]);

@@ -20,13 +20,17 @@ struct cell_survey_constants {
     uint height;
     uint columns; // cells
     uint rows;
-    uint part; // most texels of a cell that are read along each axis; 0: all
+    uint part;   // most texels of a cell that are read along each axis; 0: all
+    float alpha; // as in lobe_grid_constants
+    float cutoff;
 };
-INTERFACE_SIZE(cell_survey_constants, 20)
+INTERFACE_SIZE(cell_survey_constants, 28)
 INTERFACE_OFFSET(cell_survey_constants, height, 4)
 INTERFACE_OFFSET(cell_survey_constants, columns, 8)
 INTERFACE_OFFSET(cell_survey_constants, rows, 12)
 INTERFACE_OFFSET(cell_survey_constants, part, 16)
+INTERFACE_OFFSET(cell_survey_constants, alpha, 20)
+INTERFACE_OFFSET(cell_survey_constants, cutoff, 24)
 
 // Least values over the texels of a cell: the negative of what is largest.
 struct survey_extremes {

@@ -50,10 +50,16 @@ vec3 normal_at(vec2 point) {
                : vec3(0.0, 0.0, 1.0);
 }
 
-// How much a point counts. `alpha`, `cutoff`: of the mask, as in lobe_grid_constants.
-float weight_of_point(vec2 point, float alpha, float cutoff) {
-    return MASKED_LOBES && base_texel(base_colour_map, point).a * alpha < cutoff ? WEIGHT_OF_CUT
-                                                                                 : 1.0;
+// How much a point counts where the base colour map has this alpha. `factor`, `cutoff`: of the
+// mask, as in lobe_grid_constants.
+float weight_of_alpha(float alpha, float factor, float cutoff) {
+    return MASKED_LOBES && alpha * factor < cutoff ? WEIGHT_OF_CUT : 1.0;
+}
+
+float weight_of_point(vec2 point, float factor, float cutoff) {
+    return MASKED_LOBES
+               ? weight_of_alpha(base_texel(base_colour_map, point).a, factor, cutoff)
+               : 1.0;
 }
 
 // The factor of the material's width: red for half-vector lobes, green (roughness) for

@@ -300,6 +300,8 @@ static known_member known[] = {
     MEMBER(cell_survey_constants, columns, 2),
     MEMBER(cell_survey_constants, rows, 3),
     MEMBER(cell_survey_constants, part, 4),
+    MEMBER(cell_survey_constants, alpha, 5),
+    MEMBER(cell_survey_constants, cutoff, 6),
     MEMBER(survey_extremes, places, 0),
     MEMBER(survey_extremes, factors, 1),
     MEMBER(ocean_fft_constants, size, 0),

@@ -145,8 +145,9 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
         lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->subdivision = passes_subdivision_choose(&context->scene->materials[material],
-                                                      passes_knob_choice(context, &clusters_knob));
+    prepared->subdivision =
+        passes_subdivision_choose(context->scene, &context->scene->materials[material],
+                                  passes_knob_choice(context, &clusters_knob));
     *slot = prepared;
     return LOBE_OK;
 }

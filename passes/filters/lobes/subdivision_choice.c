@@ -80,14 +80,21 @@ static void add_errors(const material_patch *source, uint32_t clusters, double e
     }
 }
 
-uint32_t passes_subdivision_choose(const device_material *material, uint32_t clusters) {
+uint32_t passes_subdivision_choose(const device_scene *scene, const device_material *material,
+                                   uint32_t clusters) {
+    const lobe_mask mask = passes_lobe_mask(scene, material);
     double errors[3] = {0};
     material_patch source;
+    bool any = false;
     for (uint32_t i = 0; i < MATERIAL_PATCHES; i++) {
-        if (!passes_material_patch_read(material, i, &source))
+        if (!passes_material_patch_read(material, &mask, i, &source))
             return 2;
-        add_errors(&source, clusters, errors);
+        if (source.count > 0)
+            add_errors(&source, clusters, errors);
+        any = any || source.count > 0;
     }
+    if (!any)
+        return 2;
     double least = fmin(errors[0], fmin(errors[1], errors[2]));
     uint32_t subdivision = 0;
     while (errors[subdivision] > fmax(tolerance * least, negligible))

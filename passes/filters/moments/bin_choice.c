@@ -5,6 +5,7 @@
 
 #include "passes/filters/moments/footprint.h"
 #include "passes/maps/material_patch.h"
+#include "passes/upload/colours/lobe_mask.h"
 #include "passes/upload/material_maps.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
@@ -48,16 +49,17 @@ typedef struct footprint_set {
     plane_sample lobes[];
 } footprint_set;
 
-static void read_patch(const lobe_scene *scene, const device_material *material, uint32_t index,
-                       footprint *patch) {
+static void read_patch(const lobe_scene *scene, const device_material *material,
+                       const lobe_mask *mask, uint32_t index, footprint *patch) {
     const material_patch_place at = passes_material_patch_place(material, index);
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
         passes_material_patch_point(&at, i, point);
+        if (passes_lobe_mask_cuts(mask, (uint32_t)point[0], (uint32_t)point[1]))
+            continue;
         patch->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
                                                   &patch->lobes[patch->count]);
     }
-    patch->count = passes_plane_samples_keep(patch->lobes, patch->count);
 }
 
 static uint32_t count_lights(const lobe_survey *survey) {
@@ -82,11 +84,12 @@ static void find_units(const footprint_set *set, uint32_t light, double units[FO
 }
 
 /// The last is of all the maps, and so is a patch that a mask cuts away. NULL: out of memory.
-static footprint_set *read_footprints(const lobe_scene *scene, const device_material *material,
+static footprint_set *read_footprints(const device_scene *scene, const device_material *material,
                                       const lobe_survey *survey, const lobe_allocator *allocator) {
     enum { LOBES = MATERIAL_PATCH_EXTENT * MATERIAL_PATCH_EXTENT * LOBE_MATERIAL_MAXIMUM_LOBES };
     const bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const uint32_t lights = count_lights(survey);
+    const lobe_mask mask = passes_lobe_mask(scene, material);
     footprint_set *set = lobe_allocate(
         allocator, 1,
         sizeof *set + ((size_t)MATERIAL_PATCHES * LOBES + survey->count) * sizeof *set->lobes);
@@ -99,7 +102,7 @@ static footprint_set *read_footprints(const lobe_scene *scene, const device_mate
         patch->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
         patch->light_count = lights;
         if (i < MATERIAL_PATCHES)
-            read_patch(scene, material, i, patch);
+            read_patch(scene->scene, material, &mask, i, patch);
         if (patch->count == 0) {
             patch->lobes = whole;
             patch->count = survey->count;
@@ -256,7 +259,7 @@ static bin_choice choose_unread(const device_material *material, uint32_t bins, 
                        (colour == BIN_COLOUR_AUTOMATIC && passes_specular_colour_varies(material))};
 }
 
-bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
+bool passes_bins_choose(const device_scene *scene, const device_material *material,
                         const lobe_survey *survey, uint32_t bins, bin_colour colour,
                         const lobe_allocator *allocator, bin_choice *choice) {
     *choice = choose_unread(material, bins, colour);

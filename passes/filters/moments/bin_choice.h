@@ -20,7 +20,7 @@ typedef struct bin_choice {
 /// as well as the best, for the least memory of bins and colours. If the survey has no samples, the
 /// components are all zero, and their number and points are those that serve most maps. False: out
 /// of memory.
-bool passes_bins_choose(const lobe_scene *scene, const device_material *material,
+bool passes_bins_choose(const device_scene *scene, const device_material *material,
                         const lobe_survey *survey, uint32_t bins, bin_colour colour,
                         const lobe_allocator *allocator, bin_choice *choice);
 

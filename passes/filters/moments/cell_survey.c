@@ -37,15 +37,21 @@ static void dispatch(lobe_graph *graph, const device_material *material, bool br
                              });
 }
 
-static struct cell_survey_constants cells_of(const device_material *material, uint32_t part) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    return (struct cell_survey_constants){grid.width, grid.height, cell_count(grid.width),
-                                          cell_count(grid.height), part};
+static struct cell_survey_constants cells_of(const filter_context *context,
+                                             const device_material *material, uint32_t part) {
+    const struct lobe_grid_constants grid = passes_lobe_grid_constants(context, material);
+    return (struct cell_survey_constants){.width = grid.width,
+                                          .height = grid.height,
+                                          .columns = cell_count(grid.width),
+                                          .rows = cell_count(grid.height),
+                                          .part = part,
+                                          .alpha = grid.alpha,
+                                          .cutoff = grid.cutoff};
 }
 
 cell_survey passes_moment_cell_survey_declare(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
-    const struct cell_survey_constants constants = cells_of(material, 0);
+    const struct cell_survey_constants constants = cells_of(context, material, 0);
     cell_survey survey = {.cells = constants.columns * constants.rows};
     survey.lobe_count = survey.cells * SURVEY_DRAWS * material->lobe_count;
     survey.extremes = declare(context->graph, "extremes of lobes", index,
@@ -58,7 +64,7 @@ cell_survey passes_moment_cell_survey_declare(const filter_context *context, uin
 void passes_moment_cell_survey(const filter_context *context, uint32_t index, bool bright_texels,
                                uint32_t part, cell_survey *survey) {
     const device_material *material = &context->scene->materials[index];
-    const struct cell_survey_constants constants = cells_of(material, part);
+    const struct cell_survey_constants constants = cells_of(context, material, part);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_cell_survey");
     passes_base_maps_read(context, material, false, pass);
     passes_colour_maps_read(context, material, bright_texels, pass);

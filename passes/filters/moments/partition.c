@@ -141,7 +141,7 @@ static void set_hats(const lobe_survey *survey, moment_partition *partition) {
     }
 }
 
-static lobe_result set_bins(const lobe_scene *scene, const device_material *material,
+static lobe_result set_bins(const device_scene *scene, const device_material *material,
                             const lobe_survey *survey, const partition_request *request,
                             const lobe_allocator *allocator, moment_partition *partition) {
     bin_choice choice;
@@ -168,11 +168,11 @@ lobe_result passes_moment_partition_make(const device_scene *uploaded, uint32_t 
     partition->kind = request->kind;
     partition->width = grid.width;
     partition->height = grid.height;
-    lobe_survey *survey = passes_lobe_survey_make(uploaded->scene, material, allocator);
+    lobe_survey *survey = passes_lobe_survey_make(uploaded, material, allocator);
     if (!survey)
         return LOBE_ERROR_OUT_OF_MEMORY;
     partition->constants.largest[0] = (float)(1.001 * survey->range.heaviest);
-    lobe_result result = set_bins(uploaded->scene, material, survey, request, allocator, partition);
+    lobe_result result = set_bins(uploaded, material, survey, request, allocator, partition);
     lobe_release(survey);
     return result;
 }

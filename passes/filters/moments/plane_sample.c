@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "passes/upload/colours/material_colours.h"
-#include "passes/upload/material_maps.h"
 
 double passes_plane_variance(const lobe_material *material, double concentration) {
     if (material->distribution != LOBE_DISTRIBUTION_GGX)
@@ -31,13 +30,6 @@ void passes_plane_distortion(const double place[2], double covariance[3], double
     }
 }
 
-/// Without the alpha of vertices: samples choose bins, of which any hold all lobes.
-static bool is_cut(const device_material *material, double alpha) {
-    const lobe_material *source = material->material;
-    return passes_lobes_are_masked(material) &&
-           alpha * (double)source->base_colour[3] < (double)source->alpha_cutoff;
-}
-
 uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_material *material,
                                    double x, double y, double weight,
                                    plane_sample samples[LOBE_MATERIAL_MAXIMUM_LOBES]) {
@@ -55,7 +47,6 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
         sample->mass = ggx ? 1 + 2 * sample->variance : 1;
         sample->weight = weight * lobes[k].weight;
         sample->metallic = colours.metallic;
-        sample->cut = is_cut(material, colours.alpha);
         for (int i = 0; i < 3; i++) {
             double own =
                 microfacet ? 1 : (double)source->lobes[k].colour[i] / fmax(lobes[k].weight, 1e-6);
@@ -64,14 +55,6 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
         }
     }
     return count;
-}
-
-uint32_t passes_plane_samples_keep(plane_sample *samples, uint32_t count) {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (!samples[i].cut)
-            samples[kept++] = samples[i];
-    return kept;
 }
 
 void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weight) {

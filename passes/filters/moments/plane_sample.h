@@ -9,7 +9,6 @@ typedef struct plane_sample {
     double weight;              ///< of all lobes that it stands for; relative to other samples
     double specular[3];         ///< what it reflects, linear RGB
     double albedo[3], metallic; ///< of its texel
-    bool cut;                   ///< away by a mask, so that maps of lobes leave it out
 } plane_sample;
 
 /// The lobes at a point of a material's lobe_grid (in texels), with this weight in all; returns
@@ -18,9 +17,6 @@ typedef struct plane_sample {
 uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_material *material,
                                    double x, double y, double weight,
                                    plane_sample samples[LOBE_MATERIAL_MAXIMUM_LOBES]);
-
-/// Moves those that no mask cuts away to the front, and returns their number.
-uint32_t passes_plane_samples_keep(plane_sample *samples, uint32_t count);
 
 /// The variance of a material's lobe of this concentration.
 double passes_plane_variance(const lobe_material *material, double concentration);

@@ -5,6 +5,7 @@
 
 #include "passes/context/sample_pattern.h"
 #include "passes/filters/moments/coreset.h"
+#include "passes/upload/colours/lobe_mask.h"
 #include "passes/upload/material_rows.h"
 
 /// What most texels have, to find those that differ.
@@ -19,6 +20,7 @@ typedef struct usual_texel {
 typedef struct surveying {
     const lobe_material *material;
     material_rows *rows;
+    lobe_mask mask;
     usual_texel usual;
     coreset chosen;
     float low[2], high[2]; ///< of the places
@@ -74,6 +76,12 @@ static void weigh_row(surveying *s) {
         float value = least_density + by_place * (x * x + y * y) + by_width * width * width;
         density[i] = value < most_density ? value : most_density; // a factor may be infinite
     }
+}
+
+/// What a mask cuts away would have bins of its own, but nobody sees it.
+static void leave_out_cut(surveying *s, uint32_t y) {
+    for (uint32_t x = 0; s->mask.image && x < s->rows->width; x++)
+        s->density[x] = passes_lobe_mask_cuts(&s->mask, x, y) ? 0 : s->density[x];
 }
 
 static float least_of(float a, float b) {
@@ -162,23 +170,38 @@ static double variance_of_texel(const surveying *s, float factor) {
 }
 
 static void find_usual(surveying *s) {
-    double place[2] = {0}, square = 0, width = 0, width_square = 0, variance = 0;
+    double place[2] = {0}, square = 0, width = 0, width_square = 0, variance = 0, count = 0;
     for (uint32_t i = 0; i < PILOT * PILOT; i++) {
         double row = (i / PILOT + passes_hashed_number(2 * (uint64_t)(i / PILOT))) / PILOT;
         double column = (i % PILOT + passes_hashed_number(2 * (uint64_t)i + 1)) / PILOT;
-        if (i % PILOT == 0)
-            read_row(s, (uint32_t)(row * s->rows->height));
         const uint32_t x = (uint32_t)(column * s->rows->width);
+        const uint32_t y = (uint32_t)(row * s->rows->height);
+        if (i % PILOT == 0)
+            read_row(s, y);
+        // Some texels tell enough; where a mask keeps none of them, all are as usual as others.
+        if (passes_lobe_mask_cuts(&s->mask, x, y))
+            continue;
+        count += 1;
         for (int axis = 0; axis < 2; axis++) {
             double value = (double)s->place[axis][x];
-            place[axis] += value / (PILOT * PILOT);
-            square += value * value / (PILOT * PILOT);
+            place[axis] += value;
+            square += value * value;
         }
         double logarithm = (double)rough_logarithm(s->rows->factor[x]);
-        width += logarithm / (PILOT * PILOT);
-        width_square += logarithm * logarithm / (PILOT * PILOT);
-        variance += variance_of_texel(s, s->rows->factor[x]) / (PILOT * PILOT);
+        width += logarithm;
+        width_square += logarithm * logarithm;
+        variance += variance_of_texel(s, s->rows->factor[x]);
     }
+    if (count == 0) {
+        s->usual = (usual_texel){.spread = 1, .varies = 1};
+        return;
+    }
+    for (int axis = 0; axis < 2; axis++)
+        place[axis] /= count;
+    square /= count;
+    width /= count;
+    width_square /= count;
+    variance /= count;
     square -= place[0] * place[0] + place[1] * place[1];
     s->usual = (usual_texel){.place = {(float)place[0], (float)place[1]},
                              .spread = (float)(fmax(square, 0) + 2 * variance),
@@ -189,10 +212,12 @@ static void find_usual(surveying *s) {
 static void read_all(surveying *s) {
     const material_rows *rows = s->rows;
     find_usual(s);
-    passes_coreset_begin(&s->chosen, 1.25 * rows->width * rows->height, (double)least_density);
+    passes_coreset_begin(&s->chosen, 1.25 * (double)passes_lobe_mask_count_kept(&s->mask),
+                         (double)least_density);
     for (uint32_t y = 0; y < rows->height; y++) {
         read_row(s, y);
         weigh_row(s);
+        leave_out_cut(s, y);
         passes_coreset_add_row(&s->chosen, s->density, rows->width, y);
         if (s->material->model == LOBE_MATERIAL_MICROFACET)
             extend_places(s, rows->normal);
@@ -264,12 +289,10 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
             passes_plane_samples_read(scene, material, texel->x + 0.5, texel->y + 0.5,
                                       (double)texel->weight, &survey->samples[survey->count]);
     }
-    // What a mask cuts away would have bins of its own, but nobody sees it.
-    const uint32_t kept = passes_plane_samples_keep(survey->samples, survey->count);
-    survey->count = kept > 0 ? kept : survey->count;
 }
 
-static surveying *begin(const lobe_allocator *allocator, const device_material *material) {
+static surveying *begin(const device_scene *scene, const device_material *material,
+                        const lobe_allocator *allocator) {
     material_rows *rows = passes_material_rows_create(allocator, material);
     if (!rows)
         return NULL;
@@ -282,6 +305,9 @@ static surveying *begin(const lobe_allocator *allocator, const device_material *
     }
     s->material = material->material;
     s->rows = rows;
+    s->mask = passes_lobe_mask(scene, material);
+    if (passes_lobe_mask_count_kept(&s->mask) == 0)
+        s->mask.image = NULL;
     s->place[0] = s->data;
     s->place[1] = s->data + rows->width;
     s->density = s->data + (size_t)2 * rows->width;
@@ -295,7 +321,7 @@ static surveying *begin(const lobe_allocator *allocator, const device_material *
 /// For maps that the host cannot read: the range of any material.
 static const plane_range everything = {{-2, -2}, {2, 2}, 1e3, 5, 10};
 
-lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_material *material,
+lobe_survey *passes_lobe_survey_make(const device_scene *scene, const device_material *material,
                                      const lobe_allocator *allocator) {
     lobe_survey *survey = lobe_allocate(allocator, 1, sizeof *survey);
     if (!survey)
@@ -303,11 +329,11 @@ lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_mater
     survey->range = everything;
     if (!passes_material_rows_are_readable(material))
         return survey;
-    surveying *s = begin(allocator, material);
+    surveying *s = begin(scene, material, allocator);
     if (s) {
         read_all(s);
         survey->range = range_of(s);
-        take_samples(s, scene, material, survey);
+        take_samples(s, scene->scene, material, survey);
         lobe_release(s->rows);
     } else {
         lobe_release(survey);

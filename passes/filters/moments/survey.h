@@ -4,7 +4,7 @@
 #include "passes/filters/moments/plane_sample.h"
 
 /// What the partition of a material is made from: the extremes of all lobes of its maps, and a
-/// sample of them.
+/// sample of those that its mask keeps.
 
 /// Extremes over all lobes of a material.
 typedef struct plane_range {
@@ -26,7 +26,7 @@ typedef struct lobe_survey {
 /// few of them have, a sample at regular distances misses, and a map whose period divides the
 /// distance, it sees as flat. The result depends on the texels alone. NULL: out of memory. Freed
 /// with lobe_release.
-lobe_survey *passes_lobe_survey_make(const lobe_scene *scene, const device_material *material,
+lobe_survey *passes_lobe_survey_make(const device_scene *scene, const device_material *material,
                                      const lobe_allocator *allocator);
 
 #endif

@@ -122,16 +122,16 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
     improve_components(units);
 }
 
-// How much a sample should become component `count`: its squared distance from the nearest other.
-// For k-means a random number decides in proportion to it.
+// How much a sample should become component `count`: its squared distance from the nearest other,
+// and what it counts under a mask. For k-means a random number decides in proportion to it.
 float key_of(mixture_sample lobe, uint index, int count, uint start, mixture_units units) {
-    float nearest = 1e30;
+    float nearest = 1e30, weight = MASKED_LOBES ? lobe.mass : 1.0;
     for (int j = 0; j < count; ++j)
         nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
     if (start == FAR_APART)
-        return count == 0 ? squared_distance(lobe, vec3(0.0), units) : nearest;
+        return weight * (count == 0 ? squared_distance(lobe, vec3(0.0), units) : nearest);
     float number = hashed_number(index * MOMENT_MAXIMUM_BINS + uint(count) + 77u);
-    return (count == 0 ? 1.0 : nearest) / -log(max(number, 1e-7));
+    return weight * (count == 0 ? 1.0 : nearest) / -log(max(number, 1e-7));
 }
 
 // Makes component `count` of the sample with the largest key.

@@ -123,6 +123,8 @@ void start_apart(level_box box, mixture_units units,
                 float nearest = count == 0 ? squared_distance(lobe, vec3(0.0), units) : 1e30;
                 for (int j = 0; j < count; ++j)
                     nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
+                if (MASKED_LOBES)
+                    nearest *= lobe.mass;
                 if (nearest > farthest) {
                     farthest = nearest;
                     place = lobe.place;

@@ -7,8 +7,8 @@
 // one at random in each square of a grid: the time then does not grow with the map. Texels are
 // drawn with a probability proportional to a density, and stand for the inverse of it; as it grows
 // with the squared distance from what is usual, the sample also has what is rare (Bachem, Lucic,
-// Krause 2018, Scalable k-Means Clustering via Lightweight Coresets). All sums are in a fixed
-// order.
+// Krause 2018, Scalable k-Means Clustering via Lightweight Coresets). What a mask cuts away is in
+// the sample as little as it counts in the maps. All sums are in a fixed order.
 
 #include "interface/moment_bins.h"
 #include "interface/moment_refit.h"
@@ -42,6 +42,7 @@ shared vec4 second[THREADS];
 struct grid_texel {
     vec3 normal;
     float factor; // of the widths
+    float weight; // how much it counts, see base_maps.glsl
 };
 
 // A map's texel at one of the grid.
@@ -51,7 +52,7 @@ vec4 fetch_texel(sampler2D map, uvec2 position) {
 }
 
 grid_texel read_texel(uvec2 position) {
-    grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), 1.0);
+    grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), 1.0, 1.0);
     if (has_map(MAP_NORMAL))
         texel.normal =
             decode_normal(fetch_texel(normal_map, position).xyz, material.normal_scale, NORMALS);
@@ -59,6 +60,9 @@ grid_texel read_texel(uvec2 position) {
         vec4 value = finite_or_zero(fetch_texel(width_map, position));
         texel.factor = MODEL == MODEL_MICROFACET ? value.g : value.r;
     }
+    if (MASKED_LOBES)
+        texel.weight = weight_of_alpha(finite_or_zero(fetch_texel(base_colour_map, position)).a,
+                                       constants.alpha, constants.cutoff);
     return texel;
 }
 
@@ -104,11 +108,12 @@ usual_texel find_usual(uint thread) {
     grid_texel texel = read_texel(min(uvec2(part * vec2(size)), size - 1u));
     vec2 place = plane_from_direction(texel.normal);
     float width = logarithm_of_width(texel);
-    first[thread] = vec4(place, dot(place, place),
+    first[thread] = texel.weight *
+                    vec4(place, dot(place, place),
                          plane_variance(DISTRIBUTION, base_parameter(0, texel.factor)));
-    second[thread] = vec4(width, width * width, 0.0, 0.0);
+    second[thread] = texel.weight * vec4(width, width * width, 1.0, 0.0);
     add_up(thread);
-    vec4 mean = first[0] / float(THREADS), widths = second[0] / float(THREADS);
+    vec4 mean = first[0] / second[0].z, widths = second[0] / second[0].z;
     barrier();
     return usual_texel(mean.xy, max(mean.z - dot(mean.xy, mean.xy), 0.0) + 2.0 * mean.w, widths.x,
                        max(widths.y - widths.x * widths.x, 0.01));
@@ -119,7 +124,8 @@ usual_texel find_usual(uint thread) {
 float density_of(grid_texel texel, usual_texel usual) {
     vec2 d = plane_from_direction(texel.normal) - usual.place;
     float width = logarithm_of_width(texel) - usual.width;
-    return min(0.5 + 0.25 * dot(d, d) / usual.spread + 0.25 * width * width / usual.varies, 1e6);
+    return texel.weight *
+           min(0.5 + 0.25 * dot(d, d) / usual.spread + 0.25 * width * width / usual.varies, 1e6);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -239,7 +245,7 @@ void draw_texels(uint thread, grid_cell cell, usual_texel usual, float sum) {
             continue;
         float density;
         grid_texel texel = find_texel(thread, cell, usual, target - begin, density);
-        write_lobes(draw, texel, weight_of_read(cell) * part / density);
+        write_lobes(draw, texel, weight_of_read(cell) * texel.weight * part / density);
     }
 }
 

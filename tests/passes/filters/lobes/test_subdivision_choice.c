@@ -16,7 +16,8 @@ static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *mater
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
-    uint32_t subdivision = passes_subdivision_choose(&uploaded->materials[0], CLUSTERS_TURNED);
+    uint32_t subdivision =
+        passes_subdivision_choose(uploaded, &uploaded->materials[0], CLUSTERS_TURNED);
     passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     return subdivision;
@@ -61,6 +62,29 @@ static void as_many_as_directions_need(void **state) {
     assert_int_equal(choose_for_normals(*state, 0.05f, one_side, 2), 0);
 }
 
+/// What a mask cuts away asks for no clusters, and where it keeps nothing there is a choice.
+static void what_a_mask_cuts_does_not_count(void **state) {
+    static const double one_side[][2] = {{2, 5}, {35, 5}};
+    typedef enum kept { ALL, LEVEL, NOTHING } kept;
+    static const uint32_t choices[] = {[ALL] = 2, [LEVEL] = 0, [NOTHING] = 2};
+    for (kept c = ALL; c <= NOTHING; c++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 300);
+        material.normal_map = scene_add_map(scene, normals_in_turn(64, 48, one_side, 2));
+        lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, 64, 48);
+        for (uint32_t i = 0; i < 64 * 48; i++) {
+            bool level = (i % 64 + i / 64) % 2 == 0;
+            ((unsigned char *)colours.texels)[4 * i + 3] =
+                c == ALL || (c == LEVEL && level) ? 255 : 100;
+        }
+        material.base_colour_map = scene_add_map(scene, colours);
+        material.normal_map.nearest = material.base_colour_map.nearest = true;
+        material.alpha_mask = true;
+        material.alpha_cutoff = 0.5f;
+        assert_int_equal(choose(*state, scene, &material), choices[c]);
+    }
+}
+
 /// Two base lobes on opposite sides, like those of a woven cloth, need sectors even if the normals
 /// are flat.
 static void base_lobes_count_as_well(void **state) {
@@ -102,6 +126,7 @@ static void any_map_has_an_answer(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_many_as_directions_need),
+        cmocka_unit_test(what_a_mask_cuts_does_not_count),
         cmocka_unit_test(base_lobes_count_as_well),
         cmocka_unit_test(any_map_has_an_answer),
     };

@@ -58,7 +58,7 @@ static lobe_survey *survey_both(fixture *f, lobe_scene *scene, const lobe_materi
     lobe_graph_read_back(f->graph, found.survey.lobes, (lobe_range){0});
     pass_run_execute(&run);
     take_findings(f);
-    lobe_survey *survey = passes_lobe_survey_make(scene, &run.scene->materials[0], NULL);
+    lobe_survey *survey = passes_lobe_survey_make(run.scene, &run.scene->materials[0], NULL);
     assert_non_null(survey);
     pass_run_end(&run);
     lobe_scene_destroy(&scene);
@@ -201,10 +201,42 @@ static void bright_texels_are_found(void **state) {
     }
 }
 
+/// What a mask cuts away counts a thousandth, also in what is usual: a few kept texels among many
+/// that lie elsewhere are most of the sample.
+static void the_sample_is_of_what_a_mask_keeps(void **state) {
+    enum { WIDTH = 256, HEIGHT = 192, KEPT = 4 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3f, 0);
+    lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTH, HEIGHT);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, WIDTH, HEIGHT);
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+        const bool kept = i % WIDTH < KEPT;
+        float *normal = (float *)normals.texels + (size_t)4 * i;
+        normal[0] = kept ? 0.7f : i % 2 ? 0.2f : 0.4f;
+        normal[1] = 0.5f;
+        normal[2] = 0.9f;
+        ((unsigned char *)colours.texels)[(size_t)4 * i + 3] = kept ? 200 : 100;
+    }
+    material.normal_map = scene_add_map(scene, normals);
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.alpha_mask = true;
+    material.alpha_cutoff = 0.5f;
+    lobe_survey *survey = survey_both(*state, scene, &material, false, 0);
+    const double expected = KEPT * HEIGHT, rest = (WIDTH - KEPT) * HEIGHT / 1024.0;
+    double kept = 0;
+    for (uint32_t k = 0; k < found.survey.lobe_count; k++)
+        kept += found.lobes[k][0] > 0 ? (double)found.lobes[k][3] : 0;
+    if (!(fabs(kept / expected - 1) < 0.01 && fabs(found.total - kept - rest) < 0.05 * rest))
+        fail_msg("%g kept and %g cut instead of %g and %g", kept, found.total - kept, expected,
+                 rest);
+    lobe_release(survey);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(extremes_are_those_of_all_texels),
         cmocka_unit_test(the_sample_stands_for_all_texels),
+        cmocka_unit_test(the_sample_is_of_what_a_mask_keeps),
         cmocka_unit_test(what_is_rare_is_seen),
         cmocka_unit_test(bright_texels_are_found),
     };

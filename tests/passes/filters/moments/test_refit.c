@@ -64,7 +64,7 @@ static refit fit_bins(fixture *f, const map_case *c, const lobe_material *base, 
     lobe_graph_read_back(f->graph, bins, (lobe_range){0});
     pass_run_execute(&run);
     copy_read_back(f, bins, &result.bins, sizeof result.bins);
-    result.survey = passes_lobe_survey_make(scene, &run.scene->materials[0], NULL);
+    result.survey = passes_lobe_survey_make(run.scene, &run.scene->materials[0], NULL);
     assert_non_null(result.survey);
     pass_run_end(&run);
     lobe_scene_destroy(&scene);

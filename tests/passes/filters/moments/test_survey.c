@@ -19,7 +19,7 @@ static lobe_survey *survey_of(fixture *f, lobe_scene *scene, const lobe_material
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
-    lobe_survey *survey = passes_lobe_survey_make(scene, &uploaded->materials[0], NULL);
+    lobe_survey *survey = passes_lobe_survey_make(uploaded, &uploaded->materials[0], NULL);
     assert_non_null(survey);
     passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
@@ -127,6 +127,33 @@ static void rare_widths_are_seen(void **state) {
     lobe_release(survey);
 }
 
+/// The sample is of what a mask keeps, and no smaller for how little that is.
+static void the_sample_is_of_what_a_mask_keeps(void **state) {
+    enum { WIDTH = 512, HEIGHT = 128, PITCH = 32 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.roughness = 0.3f;
+    material.base_colour[3] = 0.5f;
+    material.normal_map = scene_add_map(scene, grooves(WIDTH, HEIGHT, PITCH, 0));
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, WIDTH / 2, HEIGHT);
+    // One texel of each pitch, over one of slope 0.6 and a level one. Half of the others would be
+    // kept without the factor of alpha.
+    for (uint32_t i = 0; i < WIDTH / 2 * HEIGHT; i++)
+        ((unsigned char *)colours.texels)[4 * i + 3] = i % (PITCH / 2) == PITCH / 4 ? 255
+                                                       : i % 2                      ? 150
+                                                                                    : 0;
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.alpha_mask = true;
+    material.alpha_cutoff = 0.4f;
+    lobe_survey *survey = survey_of(*state, scene, &material);
+    assert_in_range(survey->count, CORESET_TEXELS / 3, CORESET_TEXELS);
+    assert_true(part_of(survey, 0) < 0.6);
+    for (uint32_t i = 0; i < survey->count; i++)
+        assert_true(survey->samples[i].place[0] < 1e-2);
+    lobe_release(survey);
+}
+
 /// Every texel of a small map is drawn; of a large one neither too many nor too few, however much
 /// they differ, and their weights stand for all of them.
 static void weights_stand_for_all_texels(void **state) {
@@ -163,6 +190,7 @@ int main(void) {
         cmocka_unit_test(grooves_of_any_pitch),
         cmocka_unit_test(what_is_rare_is_seen),
         cmocka_unit_test(rare_widths_are_seen),
+        cmocka_unit_test(the_sample_is_of_what_a_mask_keeps),
         cmocka_unit_test(weights_stand_for_all_texels),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
