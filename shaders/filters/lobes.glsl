@@ -21,7 +21,7 @@ layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
-layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_LENGTH;
+layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_DISPERSION;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
 
 layout(LOBE_DESCRIPTOR(FILTER_KNOB_BINDING), std140) uniform filter_knob_block {

@@ -38,7 +38,7 @@ INTERFACE_OFFSET(lobes_knobs, blend, 8)
 #define SPACE_OBJECT  1
 #define SPACE_CAMERA  2
 
-#define THRESHOLD_LENGTH     0
-#define THRESHOLD_DISPERSION 1
+#define THRESHOLD_DISPERSION 0
+#define THRESHOLD_LENGTH     1
 
 #endif

@@ -16,7 +16,7 @@
 static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
 static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
 static const char *const clusters[] = {"turned", "paper", NULL};
-static const char *const thresholds[] = {"length", "dispersion", NULL};
+static const char *const thresholds[] = {"dispersion", "length", NULL};
 
 static const filter_knob space_knob = {
     .description = {.name = "space",
@@ -47,12 +47,14 @@ static const filter_knob clusters_knob = {
 };
 static const filter_knob threshold_knob = {
     .description = {.name = "threshold",
-                    .summary = "what is compared with epsilon: the length |r|, or the base lobes' "
-                               "share of the breadth",
+                    .summary =
+                        "what is compared with epsilon: the base lobes' share of the breadth; "
+                        "or, as in the paper, the length |r|, which tells nothing of how "
+                        "sharp the base lobes are",
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 1,
                     .choices = thresholds,
-                    .sweep = "dispersion"},
+                    .sweep = "length"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_THRESHOLD),
 };
 static const filter_knob epsilon0_knob = {
@@ -176,7 +178,8 @@ static bool widths_differ(const lobe_material *material) {
 
 /// Whether shading needs the mean normal or the mean length of the base lobes, and cannot derive it
 /// from the mixture because their widths or directions vary.
-static bool needs_mean(const filter_context *context, const device_material *material) {
+static bool needs_mean(const filter_context *context, const device_material *material,
+                       uint32_t subdivision) {
     const lobe_material *source = material->material;
     bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
     bool along_normal = true;
@@ -186,8 +189,8 @@ static bool needs_mean(const filter_context *context, const device_material *mat
     bool derivable = along_normal && one_width && !material->maps[MAP_WIDTH].use;
     bool diffuse =
         source->base_colour[0] > 0 || source->base_colour[1] > 0 || source->base_colour[2] > 0;
-    bool wanted = microfacet || diffuse || passes_knob_choice(context, &threshold_knob) != 0;
-    return wanted && !derivable;
+    bool by_dispersion = passes_knob_choice(context, &threshold_knob) == THRESHOLD_DISPERSION;
+    return (microfacet || diffuse || (by_dispersion && subdivision > 0)) && !derivable;
 }
 
 /// The coarsest subdivision that can suffice: 1 where the base lobes of every texel point so far
@@ -196,7 +199,7 @@ static uint32_t coarsest_of(const filter_context *context, const device_material
                             const mixture_map *mixture) {
     const lobe_material *source = material->material;
     if (source->model == LOBE_MATERIAL_MICROFACET || mixture->subdivision == 0 ||
-        passes_knob_choice(context, &threshold_knob) != 0)
+        passes_knob_choice(context, &threshold_knob) != THRESHOLD_LENGTH)
         return 0;
     float mean[3] = {0};
     for (uint32_t i = 0; i < source->lobe_count; i++) {
@@ -241,11 +244,12 @@ static mixture_map build_mixture(const filter_context *context, size_t instance,
     const device_instance *drawn = &context->scene->instances[instance];
     const device_material *material = &context->scene->materials[drawn->material];
     lobe_map_space space = space_of(context, instance);
+    const uint32_t subdivision = subdivision_of(context, material, space, prepared);
     const mixture_request request = {
         .space = space,
-        .subdivision = subdivision_of(context, material, space, prepared),
+        .subdivision = subdivision,
         .clusters = passes_knob_choice(context, &clusters_knob),
-        .mean = needs_mean(context, material),
+        .mean = needs_mean(context, material, subdivision),
     };
     mixture_map mixture = passes_lobe_clustering(context, instance, &request);
     passes_level_reduction(context->graph, &mixture.map);

@@ -8,7 +8,7 @@
 
 // A subdivision is good enough if its error is at most `tolerance` times the smallest error, or at
 // most `negligible`: each finer one more than doubles the cost of a pixel.
-static const double tolerance = 1.5, negligible = 0.03;
+static const double tolerance = 1.15, negligible = 0.03;
 
 /// The inverse of mean_resultant_length: Xu et al. 2017, Eq. 8, and Newton's method.
 static double concentration(double length) {

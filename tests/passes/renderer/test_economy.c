@@ -578,7 +578,7 @@ static void unused_outputs_are_compiled_out(void **state) {
 /// Choices are constants of the shader: another choice, another pipeline; the same choice, the same
 /// pipeline. (Of numbers, see test_pipelines.c.)
 static void choices_are_constants_of_the_shader(void **state) {
-    static const char *const knobs[] = {"subdivision=0", "subdivision=1", "threshold=dispersion",
+    static const char *const knobs[] = {"subdivision=0", "subdivision=1", "threshold=length",
                                         "probes=4",      "view=lobes",    "base=lobe",
                                         "space=object",  "view=level",    "anisotropy=4"};
     enum { COUNT = sizeof knobs / sizeof *knobs };

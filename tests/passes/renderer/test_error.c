@@ -159,14 +159,14 @@ static void bumps_is_within_bounds(void **state) {
                                          {"lean", 0.456},
                                          {"leadr", 0.42},
                                          {"multi_leadr", 0.25},
-                                         {"lobes", 0.248},
+                                         {"lobes", 0.21},
                                          {"moments", 0.238},
                                          {"tan", 8.8},
                                          {"mixture", 0.2}},
                                         {{"lobes", "mipmap", 0.3},
                                          {"lobes", "direct", 0.3},
                                          {"toksvig", "mipmap", 0.3},
-                                         {"moments", "lobes", 1.1},
+                                         {"moments", "lobes", 1.2},
                                          {"moments", "lean", 0.7},
                                          {"mixture", "moments", 0.9}}};
     check_scene(*state, &bounds);
@@ -203,7 +203,7 @@ static void pillow_is_within_bounds(void **state) {
          {"lean", 0.33},
          {"leadr", 0.331},
          {"multi_leadr", 0.097},
-         {"lobes", 0.261},
+         {"lobes", 0.22},
          {"moments", 0.122},
          {"tan", 0.122},
          {"mixture", 0.108}},
@@ -219,11 +219,11 @@ static void hall_is_within_bounds(void **state) {
                                          {"toksvig", 0.5},
                                          {"lean", 0.56},
                                          {"leadr", 0.705},
-                                         {"lobes", 0.505},
+                                         {"lobes", 0.41},
                                          {"moments", 0.37}},
                                         {{"lobes", "mipmap", 0.95},
                                          {"toksvig", "mipmap", 0.95},
-                                         {"moments", "lobes", 0.85},
+                                         {"moments", "lobes", 1.05},
                                          {"moments", "lean", 0.8}}};
     check_scene(*state, &bounds);
 }

@@ -397,15 +397,22 @@ typedef struct refinement_case {
 
 static void lobes_are_refined_by_algorithm_1(void **state) {
     static const refinement_case cases[] = {
-        {"defaults", {NULL}, {2, false, 0.95, 0.85, 0.02}},
-        {"one lobe", {NULL}, {0, false, 0.95, 0.85, 0.02}},
-        {"four at most", {NULL}, {1, false, 0.95, 0.85, 0.02}},
-        {"always eight", {"epsilon0=1", "epsilon1=1", "blend=0", NULL}, {2, false, 1, 1, 0}},
-        {"always four", {"epsilon0=1", "epsilon1=0", "blend=0", NULL}, {2, false, 1, 0, 0}},
-        {"never", {"epsilon0=0", "blend=0", NULL}, {2, false, 0, 0.85, 0}},
-        {"in between", {"epsilon0=0.9", "blend=0.4", NULL}, {2, false, 0.9, 0.85, 0.4}},
+        {"defaults", {NULL}, {2, true, 0.95, 0.85, 0.02}},
+        {"by length", {"threshold=length", NULL}, {2, false, 0.95, 0.85, 0.02}},
+        {"one lobe", {"threshold=length", NULL}, {0, false, 0.95, 0.85, 0.02}},
+        {"four at most", {"threshold=length", NULL}, {1, false, 0.95, 0.85, 0.02}},
+        {"always eight",
+         {"threshold=length", "epsilon0=1", "epsilon1=1", "blend=0", NULL},
+         {2, false, 1, 1, 0}},
+        {"always four",
+         {"threshold=length", "epsilon0=1", "epsilon1=0", "blend=0", NULL},
+         {2, false, 1, 0, 0}},
+        {"never", {"threshold=length", "epsilon0=0", "blend=0", NULL}, {2, false, 0, 0.85, 0}},
+        {"in between",
+         {"threshold=length", "epsilon0=0.9", "blend=0.4", NULL},
+         {2, false, 0.9, 0.85, 0.4}},
         {"by dispersion",
-         {"threshold=dispersion", "epsilon0=0.3", "epsilon1=0.4", "blend=0.2", NULL},
+         {"epsilon0=0.3", "epsilon1=0.4", "blend=0.2", NULL},
          {2, true, 0.3, 0.4, 0.2}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -422,7 +429,7 @@ static void lobes_are_refined_by_algorithm_1(void **state) {
 /// Microfacets of any distribution keep its shape as far as the normals allow.
 static void microfacets_keep_their_shape(void **state) {
     static const char *const names[] = {"GGX", "Beckmann", "Blinn-Phong", "vMF"};
-    const char *const settings[5] = {NULL};
+    const char *const settings[5] = {"threshold=length", NULL};
     refinement_knobs knobs = {2, false, 0.95, 0.85, 0.02};
     for (int i = 0; i < 4; i++) {
         lobe_material material = material_of(LOBE_MATERIAL_MICROFACET, (lobe_distribution)i);
@@ -435,7 +442,7 @@ static void microfacets_keep_their_shape(void **state) {
 
 /// Without a mean layer (all lobes equal, along their normals) the result is the same.
 static void one_lobe_along_the_normal_needs_no_mean(void **state) {
-    const char *const settings[5] = {"threshold=dispersion", "epsilon0=0.5", NULL};
+    const char *const settings[5] = {"epsilon0=0.5", NULL};
     refinement_knobs knobs = {2, true, 0.5, 0.85, 0.02};
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_BLINN_PHONG, 60);
     material.base_colour[0] = material.base_colour[1] = material.base_colour[2] = 0.5f;

@@ -167,7 +167,8 @@ def test_knobs_are_set_and_recorded():
     _, bench = measure(fresh_folder("knobs"), "checkerboard", "--filters", "direct,lobes", *QUICK,
                        "--set", "epsilon0=0.5", "--set", "base=lobe")
     direct, lobes = bench["results"]
-    check(lobes["knobs"]["epsilon0"] == 0.5 and lobes["knobs"]["threshold"] == "length", str(lobes))
+    check(lobes["knobs"]["epsilon0"] == 0.5, str(lobes))
+    check(lobes["knobs"]["threshold"] == "dispersion", str(lobes))
     check(lobes["memory_bytes"] > direct["memory_bytes"], "large maps take memory")
     check("epsilon0" not in direct["knobs"] and direct["knobs"]["base"] == "lobe", str(direct))
     check(direct["error"] == direct["error_lobe_base"], "both truths have base=lobe")
