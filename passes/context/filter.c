@@ -86,7 +86,7 @@ void passes_filter_warn(const lobe_filter *filter, const device_scene *scene,
     warn_of_waves(filter, scene->scene, host);
     for (size_t i = 0; filter->ignores && i < scene->scene->material_count; i++) {
         const device_material *material = &scene->materials[i];
-        const char *limit = material->constants ? filter->ignores(material) : NULL;
+        const char *limit = material->constants ? filter->ignores(scene->scene, material) : NULL;
         if (limit)
             lobe_host_log(host, LOBE_LOG_WARNING, "%s: material '%s', filter '%s': %s",
                           scene->scene->name, material->material->name, filter->name, limit);

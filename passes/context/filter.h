@@ -111,9 +111,9 @@ struct lobe_filter {
     /// NULL: the filter has no maps.
     void (*build)(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance);
-    /// What the filter cannot represent of a material that is on the device, as a phrase for a
-    /// warning; NULL: nothing. The pointer itself may be NULL.
-    const char *(*ignores)(const device_material *material);
+    /// What the filter cannot represent of a material that is on the device in this scene, as a
+    /// phrase for a warning; NULL: nothing. The pointer itself may be NULL.
+    const char *(*ignores)(const lobe_scene *scene, const device_material *material);
 };
 
 /// All filters, NULL-terminated: the only list of them (passes/filters/table.c).

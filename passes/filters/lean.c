@@ -7,7 +7,8 @@ static const filter_knob *const knobs[] = {
     &passes_knob_probes,    &passes_knob_anisotropy, &passes_knob_bias,  &passes_knob_level_blend,
     &passes_knob_curvature, &passes_knob_storage,    &passes_knob_built, NULL};
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES && material->lobe_count > 1)
         return "its lobes are merged into one that covers their spread, in their mean colour";
     if (material->model == LOBE_MATERIAL_MICROFACET &&

@@ -162,7 +162,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
                                  has_relief && drawn.near);
 }
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (!passes_has_relief(material))
         return NULL;
     const bool flat_colours = !passes_lies_on_relief(material, MAP_BASE_COLOUR);

@@ -30,7 +30,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
     appearance->base_texels = (uint64_t)relief.constants.width * relief.constants.height;
 }
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (passes_has_relief(material) && material->material->normal_map.image >= 0)
         return "normals are those of its heights, not of its normal map";
     return NULL;

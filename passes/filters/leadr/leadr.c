@@ -29,11 +29,11 @@ static const filter_knob *const knobs[] = {
     &passes_knob_normal_mapping, NULL,
 };
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes are merged into one that covers their spread, in their mean colour; they "
                "are assumed to include masking";
-    if (material->distribution == LOBE_DISTRIBUTION_GGX)
+    if (scene->environment && material->distribution == LOBE_DISTRIBUTION_GGX)
         return "with env=sampled and normal_mapping=classic, GGX becomes a Beckmann lobe of equal "
                "width, without its tails";
     return NULL;

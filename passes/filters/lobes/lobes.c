@@ -271,7 +271,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
 }
 
 /// One mixture represents all lobes of a material, in the colour of their sum.
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (has_one_hue(material->material))
         return NULL;
     return "lobes of different hues get their mean hue";

@@ -50,7 +50,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_projected_map_build(context, instance, &kind, prepared, appearance);
 }
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "lobes get their mean colour";
     if (material->distribution != LOBE_DISTRIBUTION_BLINN_PHONG)

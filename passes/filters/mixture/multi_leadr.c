@@ -49,10 +49,10 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_base_lobes_build(context, material, appearance);
 }
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
     if (material->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         return "its lobes get their mean colour; they are assumed to include masking";
-    if (material->distribution == LOBE_DISTRIBUTION_GGX)
+    if (scene->environment && material->distribution == LOBE_DISTRIBUTION_GGX)
         return "with env=sampled, GGX becomes Beckmann lobes of equal width, without its tails";
     return NULL;
 }

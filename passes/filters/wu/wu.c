@@ -146,7 +146,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
 }
 
-static const char *ignores(const device_material *material) {
+static const char *ignores(const lobe_scene *scene, const device_material *material) {
+    (void)scene;
     if (!passes_has_relief(material))
         return NULL;
     return material->model == LOBE_MATERIAL_MICROFACET

@@ -67,6 +67,15 @@ def test_options_without_an_environment_are_ignored_with_a_warning():
     check(result.stderr.count("\n") == 1, report(result))
 
 
+def test_limits_with_an_environment_are_warned_of_where_there_is_one():
+    folder = fresh_folder("limits")
+    light = write_hdr(folder / "light.hdr")
+    for given, expected in ((light, 1), ("none", 0)):
+        result = succeeds("render", "bumps", *DIRECT, "--filter", "leadr", "--environment", given,
+                          "-o", folder / "a.exr")
+        check(result.stderr.count("env=sampled") == expected, report(result))
+
+
 def test_what_is_no_environment():
     folder = fresh_folder("wrong")
     output = ["-o", folder / "a.exr"]
