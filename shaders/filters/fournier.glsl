@@ -76,13 +76,14 @@ appearance fetch_appearance(surface_point surface) {
     result.area = lobe_area(surface);
     bool near = may_see_level_0(lobe_map());
     result.level = FILTERED_LOBES ? result.area.level : 0.0;
-    result.base_share = !FILTERED_LOBES ? 1.0 : near ? clamp(1.0 - result.level, 0.0, 1.0) : 0.0;
+    level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);
+    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, result.level, 1.0) : 1.0;
     result.lobe_count = float(LOBE_COUNT);
     result.normal = unfiltered_normal(surface);
     result.filtered = filtered_material(surface, result.normal, result.area);
     result.base = result.filtered;
     if (FILTERED_LOBES && near)
-        result.base = level_0_material(surface, normals_of_level_0(surface, result.level, 1.0));
+        result.base = level_0_material(surface, normals);
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);
     return result;

@@ -278,11 +278,11 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 // Prepares the traversal of the mixture.
 void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.level = fetched.area.level;
-    fetched.base_share =
-        may_see_level_0(lobe_map()) ? clamp(1.0 - fetched.level, 0.0, 1.0) : 0.0;
     fetched.mixture_from_tangent = mixture_frame(surface);
     float coverage;
     vec4 mean = fetch_mean(fetched.area, coverage);
+    level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
+    fetched.base_share = share_of_level_0(normals, fetched.level, coverage);
     fetched.base_complement = mean.w;
     // A mixture over some of the texels represents all of them.
     fetched.mixture_scale = (1.0 - fetched.base_share) / coverage;
@@ -299,7 +299,6 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     float breadth = widened_complement(fetched.complement, fetched.variance);
     fetched.spread = 1.0 - base_complement_share(breadth, mean.w);
     if (may_see_level_0(lobe_map())) {
-        level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
         fetched.base = level_0_material(surface, normals);
         fetched.diffuse_normal = mix(fetched.diffuse_normal, normals.mean, fetched.base_share);
     }

@@ -174,11 +174,10 @@ appearance fetch_appearance(surface_point surface) {
     result.filtered = footprint_material(surface, result.normal, result.area, last);
     if (FILTERED_LOBES) {
         result.level = result.area.level;
-        result.base_share =
-            may_see_level_0(lobe_map()) ? clamp(1.0 - result.level, 0.0, 1.0) : 0.0;
+        level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);
+        result.base_share = share_of_level_0(normals, result.level, 1.0 / result.mass_scale);
         if (may_see_level_0(lobe_map()))
-            result.base =
-                level_0_material(surface, normals_of_level_0(surface, result.level, 1.0));
+            result.base = level_0_material(surface, normals);
     }
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, result.area) : vec3(0.0);

@@ -100,7 +100,7 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     }
     mean *= scale;
     moments = slope_moments(mean, covariance_of_moments(mean, second * scale), 1.0,
-                            result.microfacets.variance);
+                            result.microfacets.variance, whole);
     return result;
 }
 

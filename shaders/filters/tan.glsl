@@ -40,7 +40,8 @@ appearance fetch_appearance(surface_point surface) {
     appearance result;
     map_area area = lobe_area(surface);
     bool near = may_see_level_0(lobe_map());
-    result.base_share = !FILTERED_LOBES ? 1.0 : near ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
+    level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
+    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, area.level, 1.0) : 1.0;
     result.level = FILTERED_LOBES ? area.level : 0.0;
     result.lobe_count = result.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     result.normal = unfiltered_normal(surface);
@@ -55,7 +56,7 @@ appearance fetch_appearance(surface_point surface) {
     result.filtered = filtered_material(surface, result.normal, area);
     result.base = result.filtered;
     if (FILTERED_LOBES && near)
-        result.base = level_0_material(surface, normals_of_level_0(surface, area.level, 1.0));
+        result.base = level_0_material(surface, normals);
     result.kept = !ALPHA_MASK || keeps_footprint(surface);
     result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
     return result;

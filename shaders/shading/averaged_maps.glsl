@@ -50,13 +50,13 @@ vec3 stretched_mean(vec3 mean, surface_point surface) {
 // Averages over the footprint: a normal of length at most one, and a width.
 vec4 fetch_averages(map_area area, surface_point surface) {
     vec4 sum = filtered_layer(parameter_map, area, 0u);
-    if (MASKED_LOBES)
-        sum *= per_kept(filtered_layer(parameter_map, area, 1u).x);
+    float kept = MASKED_LOBES ? filtered_layer(parameter_map, area, 1u).x : 1.0;
+    sum *= per_kept(kept);
     sum.xyz = stretched_mean(sum.xyz, surface);
     if (may_see_level_0(lobe_map())) {
-        vec3 normal = normals_of_level_0(surface, area.level, 1.0).mean;
-        float width = averaged_width(unfiltered_material(surface, normal));
-        sum = mix(vec4(normal, width), sum, min(area.level, 1.0));
+        level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
+        float width = averaged_width(unfiltered_material(surface, normals.mean));
+        sum = mix(sum, vec4(normals.mean, width), share_of_level_0(normals, area.level, kept));
     }
     sum.xyz = facing_normal(sum.xyz, surface);
     return sum;

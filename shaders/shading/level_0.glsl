@@ -10,11 +10,30 @@
 
 layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
-// Normals of level 0 over the pixel's box.
+// Normals of level 0 over the pixel's box; under a mask, those that it keeps.
 struct level_0_normals {
     vec3 mean;      // at most of unit length
     float variance; // (1 - |mean|)/|mean|, as variance_of_mean_normal
+    float kept;     // [0, 1]: the part that a mask keeps
 };
+
+// The part that level 0 has of a footprint's appearance; the maps have the rest. Under a mask each
+// counts by what it keeps: a pixel that shows a part of the surface may have a hole at its centre.
+// `kept`: how much the maps' texels count.
+float share_of_level_0(level_0_normals normals, float level, float kept) {
+    if (!may_see_level_0(lobe_map()))
+        return 0.0;
+    float share = clamp(1.0 - level, 0.0, 1.0);
+    return MASKED_LOBES && share > 0.0
+               ? share * normals.kept / max(mix(kept, normals.kept, share), 1e-6)
+               : share;
+}
+
+// One where the mask keeps a point, else zero.
+float kept_at(surface_point surface, vec2 coordinates) {
+    return !MASKED_LOBES || is_kept(base_texel(base_colour_map, coordinates).a, surface) ? 1.0
+                                                                                          : 0.0;
+}
 
 // The map's normal at texture coordinates, with slopes multiplied by `relief`.
 vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
@@ -26,22 +45,31 @@ vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
 // linearly: over a box of width one, whose variance is 1/12, the corners of an equilateral triangle
 // at the distance 1/sqrt(6) from its centre. Where level 0 has no share, the surface's own normal.
 level_0_normals normals_of_level_0(surface_point surface, float level, float relief) {
-    if (!has_map(MAP_NORMAL) || level >= 1.0)
-        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0);
-    vec2 centre = map_coordinates(MAP_NORMAL, surface.coordinates, 1.0);
+    if (!may_see_level_0(lobe_map()) || level >= 1.0)
+        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0, 1.0);
+    vec2 centre = map_coordinates(lobe_map(), surface.coordinates, 1.0);
+    if (!has_map(MAP_NORMAL))
+        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0, kept_at(surface, centre));
     if (!INTERPOLATED)
-        return level_0_normals(level_0_normal(surface, centre, relief), 0.0);
+        return level_0_normals(level_0_normal(surface, centre, relief), 0.0,
+                               kept_at(surface, centre));
     vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(8.0);
     vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(6.0);
-    vec3 a = level_0_normal(surface, centre + dy, relief);
-    vec3 b = level_0_normal(surface, centre + dx - 0.5 * dy, relief);
-    vec3 c = level_0_normal(surface, centre - dx - 0.5 * dy, relief);
-    vec3 mean = (a + b + c) / 3.0;
+    vec2 points[3] = vec2[](centre + dy, centre + dx - 0.5 * dy, centre - dx - 0.5 * dy);
+    vec3 a = level_0_normal(surface, points[0], relief);
+    vec3 b = level_0_normal(surface, points[1], relief);
+    vec3 c = level_0_normal(surface, points[2], relief);
+    vec3 kept = vec3(kept_at(surface, points[0]), kept_at(surface, points[1]),
+                     kept_at(surface, points[2]));
+    float scale = 1.0 / max(kept.x + kept.y + kept.z, 1.0);
+    vec3 mean = scale * (kept.x * a + kept.y * b + kept.z * c);
     // 1 - |mean|^2, which would cancel.
-    float complement = (difference_squared(a, mean) + difference_squared(b, mean) +
-                        difference_squared(c, mean)) / 3.0;
+    float complement = scale * dot(kept, vec3(difference_squared(a, mean),
+                                              difference_squared(b, mean),
+                                              difference_squared(c, mean)));
     float length = max(length(mean), 1e-4);
-    return level_0_normals(mean, complement / ((1.0 + length) * length));
+    return level_0_normals(mean, complement / ((1.0 + length) * length),
+                           dot(kept, vec3(1.0 / 3.0)));
 }
 
 // `normals`: of level 0.

@@ -37,8 +37,9 @@ void gather_footprint(inout appearance fetched, surface_point surface, vec3 inco
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
 void fetch_base(inout appearance fetched, surface_point surface) {
-    fetched.base = level_0_material(
-        surface, normals_of_level_0(surface, fetched.level, height_scale()));
+    level_0_normals normals = normals_of_level_0(surface, fetched.level, height_scale());
+    fetched.base_share = share_of_level_0(normals, fetched.level, fetched.moments.kept);
+    fetched.base = level_0_material(surface, normals);
     // Under its own F0, not that of the footprint, where these differ.
     if (METAL_MEANS == METAL_MEANS_NONE)
         fetched.base.diffuse = fetched.filtered.diffuse;
@@ -53,7 +54,7 @@ appearance fetch_appearance(surface_point surface) {
     result.level = 0.0;
     if (FILTERED_LOBES) {
         result.level = area.level;
-        result.base_share = may_see_level_0(lobe_map()) ? clamp(1.0 - area.level, 0.0, 1.0) : 0.0;
+        result.base_share = 0.0;
         result.lobe = fetch_lobe(area, surface, result.moments);
         if (DISPLACED)
             mask_by_triangles(result.lobe, result.moments, area, surface);

@@ -29,6 +29,7 @@ struct slope_moments {
     vec3 covariance;     // (xx, yy, xy), of the directions alone
     float mean_cosine;   // mean n_z
     float base_variance; // of the base lobes, mean alpha^2/2
+    float kept;          // how much the texels count
 };
 
 vec3 scaled_normal(vec3 normal) {
@@ -59,9 +60,11 @@ void stretch_moments(inout slope_moments moments, surface_point surface) {
 // of normals.
 slope_moments moments_of_layers(vec4 first, vec4 second, surface_point surface) {
     float height = height_scale();
-    first *= per_kept(second.w);
-    second *= per_kept(second.w);
+    float kept = second.w;
+    first *= per_kept(kept);
+    second *= per_kept(kept);
     slope_moments result;
+    result.kept = MASKED_LOBES ? kept : 1.0;
     result.mean = height * first.xy;
     result.covariance = height * height * covariance_of_moments(first.xy, second.xyz);
     result.mean_cosine = first.z;

@@ -151,6 +151,57 @@ static void pictures_do_not_flicker(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Of a map with a single row: pixels are longer than its texels, but no wider, and so see level 0.
+static lobe_scene *square_with_slanted_holes(double slope) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.metallic = 1;
+    material.roughness = 0.3f;
+    material.double_sided = material.alpha_mask = true;
+    lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, MAP, 1);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_UNORM, MAP, 1);
+    for (uint32_t i = 0; i < MAP; i++) {
+        const bool kept = i % 7 < 3;
+        const double length = sqrt(1 + slope * slope);
+        float *normal = (float *)normals.texels + (size_t)4 * i;
+        normal[0] = kept ? 0.5f : (float)(0.5 + 0.5 * slope / length);
+        normal[1] = 0.5f;
+        normal[2] = kept ? 1 : (float)(0.5 + 0.5 / length);
+        for (int channel = 0; channel < 4; channel++)
+            ((unsigned char *)colours.texels)[4 * i + (uint32_t)channel] = kept ? 255 : 0;
+    }
+    material.normal_map = scene_add_map(scene, normals);
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.normal_map.nearest = material.base_colour_map.nearest = true;
+    scene_add_square(scene, &material, 1, NULL);
+    scene_add_sun(scene, (double[]){0.3, 1, 0.1}, M_PI);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
+/// What a mask cuts away does not show where pixels show a part of the surface, although it may lie
+/// at their centres. The facets in the holes would mirror the light.
+static void holes_lend_no_normals(void **state) {
+    static const char *const filters[] = {"toksvig", "lean", "moments"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        const char *filter = filters[i];
+        double means[2][3];
+        for (int k = 0; k < 2; k++) {
+            lobe_scene *scene = square_with_slanted_holes(k == 0 ? 0 : 0.15);
+            picture_request request = {.filter = filter, .width = 23, .height = 17};
+            lobe_frame frame = draw_scene(*state, scene, &request);
+            mean_of_picture(&frame.radiance, means[k]);
+            lobe_frame_free(&frame);
+            lobe_scene_destroy(&scene);
+        }
+        if (!(means[0][0] > 0 && fabs(means[1][0] / means[0][0] - 1) < 0.02))
+            fail_msg("%s: %g with other normals in the holes, %g without", filter, means[1][0],
+                     means[0][0]);
+    }
+}
+
 static size_t times_run(const lobe_frame *frame, const char *name) {
     size_t count = 0;
     for (size_t i = 0; i < frame->pass_count; i++)
@@ -191,6 +242,7 @@ int main(void) {
         cmocka_unit_test(vertices_thin_the_mask),
         cmocka_unit_test(near_edges_are_sharp),
         cmocka_unit_test(pictures_do_not_flicker),
+        cmocka_unit_test(holes_lend_no_normals),
         cmocka_unit_test(coverage_is_built_once_and_only_for_masks),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
