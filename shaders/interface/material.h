@@ -18,7 +18,7 @@
 
 // Layers of the map of where microfacets are metal (maps/metal_means.comp): with c the texel of the
 // base colour map, or one with METAL_MEANS_ALONE, and m that of metal's share,
-#define METAL_LAYER_METAL  0 // E[c m], E[m^2]
+#define METAL_LAYER_METAL  0 // E[c m], E[m^2]; with METAL_MEANS_ALONE E[m], E[1], 0, E[m^2]
 #define METAL_LAYER_COLOUR 1 // E[c], E[m]; not with METAL_MEANS_ALONE
 
 // Layers of the map of how diffuse colours go with normals (maps/colour_normals.comp): with d the

@@ -12,6 +12,7 @@
 #include "lib/map/normal_map.glsl"
 #include "lib/map/texel_point.glsl"
 #include "maps/base_widths.glsl"
+#include "maps/mask_weight.glsl"
 
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
 layout(constant_id = SPECIALISE_NORMALS) const uint NORMALS = NORMALS_UNSIGNED;
@@ -19,15 +20,6 @@ layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
 // Points of a texel at which the maps are read: its centre where no map is interpolated.
 const int POINTS = INTERPOLATED ? TEXEL_POINTS : 1;
-
-// Under a mask that lies on the surface as the lobes do, maps are means over what it keeps: what it
-// cuts away, as the flat ground between the wires of a fence, is not seen. Sums and how much was
-// summed are filtered, and divided after that.
-layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
-
-// How much a point counts that is cut away: next to nothing, but where nothing is kept there are
-// normals, too.
-const float WEIGHT_OF_CUT = 1.0 / 1024.0;
 
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 5) uniform sampler2D normal_map;
@@ -50,12 +42,7 @@ vec3 normal_at(vec2 point) {
                : vec3(0.0, 0.0, 1.0);
 }
 
-// How much a point counts where the base colour map has this alpha. `factor`, `cutoff`: of the
-// mask, as in lobe_grid_constants.
-float weight_of_alpha(float alpha, float factor, float cutoff) {
-    return MASKED_LOBES && alpha * factor < cutoff ? WEIGHT_OF_CUT : 1.0;
-}
-
+// How much a point counts. `factor`, `cutoff`: of the mask, as in lobe_grid_constants.
 float weight_of_point(vec2 point, float factor, float cutoff) {
     return MASKED_LOBES
                ? weight_of_alpha(base_texel(base_colour_map, point).a, factor, cutoff)

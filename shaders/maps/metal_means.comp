@@ -6,7 +6,8 @@
 // linear in colour times metal, not in both means: of gold beside black paint half of the gold's
 // colour is reflected, where the means have a quarter.
 //
-// Factors of the material are left out, so that new ones rebuild nothing.
+// Factors of the material are left out, so that new ones rebuild nothing; not that of alpha under a
+// mask, which leaves no colours here.
 
 #include "interface/lobe_grid.h"
 #include "interface/material.h"
@@ -14,6 +15,7 @@
 #include "lib/map/base_texel.glsl"
 #include "lib/map/box_reduction.glsl"
 #include "lib/map/texel_point.glsl"
+#include "maps/mask_weight.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -36,6 +38,9 @@ void add_point(inout point_sums sums, vec2 point, float weight) {
     float metallic = base_texel(width_map, point).b;
     vec3 colour = METAL_MEANS == METAL_MEANS_COLOURED ? base_texel(base_colour_map, point).rgb
                                                       : vec3(1.0);
+    if (MASKED_LOBES)
+        weight *= weight_of_alpha(base_texel(base_colour_map, point).a, constants.alpha,
+                                  constants.cutoff);
     sums.metal += weight * metallic * vec4(colour, metallic);
     sums.colour += weight * vec4(colour, metallic);
 }
@@ -63,7 +68,11 @@ void main() {
             add_texel(sums, 2 * position + ivec2(x, y), vec2(size),
                       row_weights[y] * column_weights[x]);
     }
-    imageStore(metal_map, ivec3(position, METAL_LAYER_METAL), sums.metal);
-    if (METAL_MEANS == METAL_MEANS_COLOURED)
+    if (METAL_MEANS == METAL_MEANS_COLOURED) {
+        imageStore(metal_map, ivec3(position, METAL_LAYER_METAL), sums.metal);
         imageStore(metal_map, ivec3(position, METAL_LAYER_COLOUR), sums.colour);
+    } else {
+        imageStore(metal_map, ivec3(position, METAL_LAYER_METAL),
+                   vec4(sums.metal.r, sums.colour.r, 0.0, sums.metal.a));
+    }
 }

@@ -33,9 +33,9 @@ static uint32_t larger(uint32_t a, uint32_t b) {
 }
 
 /// Texels of the map's base maps.
-static struct lobe_grid_constants extent_of(const device_material *material) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    struct lobe_grid_constants extent = {.width = grid.width, .height = grid.height};
+static struct lobe_grid_constants extent_of(const filter_context *context,
+                                            const device_material *material) {
+    struct lobe_grid_constants extent = passes_lobe_grid_constants(context, material);
     if (passes_metal_means_of(material) == METAL_MEANS_FINER) {
         extent.width = larger(extent.width, material->maps[MAP_BASE_COLOUR].width);
         extent.height = larger(extent.height, material->maps[MAP_BASE_COLOUR].height);
@@ -46,7 +46,7 @@ static struct lobe_grid_constants extent_of(const device_material *material) {
 /// Only tiles of maps that have the texels of the lobes are marked.
 static reduced_map declare(const filter_context *context, uint32_t index, uint32_t layers) {
     const device_material *material = &context->scene->materials[index];
-    const struct lobe_grid_constants extent = extent_of(material);
+    const struct lobe_grid_constants extent = extent_of(context, material);
     char name[64];
     snprintf(name, sizeof name, "metal of material %u", index);
     return passes_metal_means_of(material) == METAL_MEANS_FINER
@@ -63,21 +63,18 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
         declare(context, index, coloured ? METAL_LAYER_COLOUR + 1 : METAL_LAYER_METAL + 1);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "metal_means");
     passes_base_map_read(context, material, MAP_WIDTH, "width_map", pass);
-    if (coloured)
-        passes_base_map_read(context, material, MAP_BASE_COLOUR, "base_colour_map", pass);
-    else
-        lobe_pass_read(pass, &(lobe_binding){.name = "base_colour_map",
-                                             .resource = lobe_graph_import_texture(
-                                                 context->graph, context->scene->white)});
+    passes_base_colour_read(context, material, coloured, pass);
     passes_reduced_map_write(&map, pass, "metal_map", 0);
     specialisation_list list = {.graph = context->graph};
     passes_specialise(&list, SPECIALISE_METAL_MEANS,
                       coloured ? METAL_MEANS_COLOURED : METAL_MEANS_ALONE);
+    const bool masked = passes_lobes_are_masked(material);
+    passes_specialise(&list, SPECIALISE_MASKED_LOBES, masked);
     passes_specialise(
         &list, SPECIALISE_INTERPOLATED,
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
-            (coloured && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
-    const struct lobe_grid_constants extent = extent_of(material);
+            ((coloured || masked) && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
+    const struct lobe_grid_constants extent = extent_of(context, material);
     static const char *const shaders[] = {"maps/metal_means.comp",
                                           "maps/metal_means_seen_tiles.comp"};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);

@@ -22,11 +22,15 @@ bool metal_has_colours() {
 }
 
 // The layers of the map, from samples of the base maps.
-void layers_of_level_0(vec2 position, out vec4 metal, out vec4 colour) {
+void layers_of_level_0(surface_point surface, vec2 position, out vec4 metal, out vec4 colour) {
     float share = base_texel(width_map, position).b;
     colour =
         vec4(metal_has_colours() ? base_texel(base_colour_map, position).rgb : vec3(1.0), share);
     metal = share * vec4(colour.rgb, share);
+    if (metal_has_colours())
+        return;
+    bool kept = !MASKED_LOBES || is_kept(base_texel(base_colour_map, position).a, surface);
+    metal = kept ? vec4(share, 1.0, 0.0, share * share) : vec4(0.0);
 }
 
 metal_means fetch_metal_means(surface_point surface, map_area lobes) {
@@ -39,10 +43,10 @@ metal_means fetch_metal_means(surface_point surface, map_area lobes) {
         vec4 own = fetch_probe(metal_map, METAL_LAYER_METAL, area, i);
         vec4 own_colour = metal_has_colours()
                               ? fetch_probe(metal_map, METAL_LAYER_COLOUR, area, i)
-                              : own.rrrr;
+                              : vec4(0.0);
         if (may_see_level_0(lobe_map())) {
             vec4 finest, finest_colour;
-            layers_of_level_0(probe_position(area, i), finest, finest_colour);
+            layers_of_level_0(surface, probe_position(area, i), finest, finest_colour);
             own = mix(finest, own, min(area.level, 1.0));
             own_colour = mix(finest_colour, own_colour, min(area.level, 1.0));
         }
@@ -51,6 +55,11 @@ metal_means fetch_metal_means(surface_point surface, map_area lobes) {
     }
     metal /= float(probes_of(area));
     colour /= float(probes_of(area));
+    if (!metal_has_colours()) {
+        metal *= per_kept(metal.g);
+        metal = metal.rrra;
+        colour = metal.rrrr;
+    }
     if (METAL_MEANS == METAL_MEANS_ALONE) {
         colour.rgb = filtered_base_colour(surface, lobes).rgb;
         metal.rgb *= colour.rgb;

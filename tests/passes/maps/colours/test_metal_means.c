@@ -131,9 +131,54 @@ static void gold_between_paint_is_the_mean_of_its_texels(void **state) {
         check_case(*state, &cases[i]);
 }
 
+/// Gold with holes; `metallic`: of what the mask cuts away.
+static lobe_scene *masked_gold(float metallic) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.6, 1);
+    add_maps(scene, &material, true, 1);
+    float *colours = (float *)scene->images[material.base_colour_map.image].image.texels;
+    float *widths = (float *)scene->images[material.metallic_roughness_map.image].image.texels;
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        const bool kept = widths[4 * i + 2] > 0;
+        colours[4 * i + 3] = kept ? 1 : 0;
+        widths[4 * i + 2] = kept ? 1 : metallic;
+    }
+    // Metal is the same everywhere in neither scene.
+    widths[2] = 0.9f;
+    material.alpha_mask = material.double_sided = true;
+    material.alpha_cutoff = 0.5f;
+    scene_add_square(scene, &material, 40, NULL);
+    scene_look_down(scene, 0.2);
+    scene_add_sun(scene, (double[]){0.1, 1, 0}, 1);
+    scene_end(scene);
+    return scene;
+}
+
+/// Near, where level 0 has a part of the picture, and from afar.
+static void what_a_mask_cuts_is_no_metal(void **state) {
+    static const uint32_t widths[] = {9, 60};
+    for (int i = 0; i < 2; i++) {
+        double sums[2][3] = {{0}};
+        for (int k = 0; k < 2; k++) {
+            lobe_scene *scene = masked_gold((float)k);
+            const picture_request request = {.filter = "toksvig", .width = widths[i], .height = 9};
+            lobe_frame frame = draw_scene(*state, scene, &request);
+            for (uint32_t j = 0; j < 3 * frame.radiance.width * frame.radiance.height; j++)
+                sums[k][j % 3] += (double)((const float *)frame.radiance.texels)[j / 3 * 4 + j % 3];
+            lobe_frame_free(&frame);
+            lobe_scene_destroy(&scene);
+        }
+        for (int j = 0; j < 3; j++)
+            if (!(sums[1][j] > 0 && fabs(sums[0][j] / sums[1][j] - 1) < 0.01))
+                fail_msg("%u pixels wide, channel %d: %g with paint in the holes, %g with metal",
+                         widths[i], j, sums[0][j], sums[1][j]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gold_between_paint_is_the_mean_of_its_texels),
+        cmocka_unit_test(what_a_mask_cuts_is_no_metal),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
