@@ -53,9 +53,12 @@ static void values_make_no_pipelines(void **state) {
     for (size_t n = 0; n < lobe_filter_count(); n++) {
         picture_request request = {
             .filter = lobe_filter_name(lobe_filter_get(n)), .width = 4, .height = 4, .samples = 2};
-        if (strcmp(request.filter, "moments") == 0) { // what suits the values, otherwise
+        // Unless they are set, counts of lobes are those that suit the values.
+        if (strcmp(request.filter, "moments") == 0) {
             request.settings[0] = "bins=2";
             request.settings[1] = "colour=bins";
+        } else if (strcmp(request.filter, "lobes") == 0) {
+            request.settings[0] = "subdivision=2";
         }
         lobe_scene *scene = changing_scene();
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
