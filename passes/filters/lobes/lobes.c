@@ -56,6 +56,7 @@ static const filter_knob threshold_knob = {
                     .choices = thresholds,
                     .sweep = "length"},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_THRESHOLD),
+    .decides_slots = true,
 };
 static const filter_knob epsilon0_knob = {
     .description = {.name = "epsilon0",
@@ -140,6 +141,13 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
            is_in_tangent_space(context, material);
 }
 
+/// How many times the least error serves as well, for the choice of a subdivision. Clusters that
+/// are split by their length are drawn more coarsely than the choice measures, so finer ones gain
+/// less.
+static double tolerance_of(const filter_context *context) {
+    return passes_knob_choice(context, &threshold_knob) == THRESHOLD_LENGTH ? 1.5 : 1.15;
+}
+
 static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
     if (*slot || !needs_choice(context, material))
         return LOBE_OK;
@@ -147,9 +155,9 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
         lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->subdivision =
-        passes_subdivision_choose(context->scene, &context->scene->materials[material],
-                                  passes_knob_choice(context, &clusters_knob));
+    prepared->subdivision = passes_subdivision_choose(
+        context->scene, &context->scene->materials[material],
+        passes_knob_choice(context, &clusters_knob), tolerance_of(context));
     *slot = prepared;
     return LOBE_OK;
 }

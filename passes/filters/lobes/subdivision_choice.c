@@ -6,9 +6,9 @@
 #include "passes/maps/material_patch.h"
 #include "shaders/interface/cluster.h"
 
-// A subdivision is good enough if its error is at most `tolerance` times the smallest error, or at
-// most `negligible`: each finer one more than doubles the cost of a pixel.
-static const double tolerance = 1.15, negligible = 0.03;
+// A subdivision is good enough if its error is at most this, too: each finer one more than doubles
+// the maps.
+static const double negligible = 0.03;
 
 /// The inverse of mean_resultant_length: Xu et al. 2017, Eq. 8, and Newton's method.
 static double concentration(double length) {
@@ -81,7 +81,7 @@ static void add_errors(const material_patch *source, uint32_t clusters, double e
 }
 
 uint32_t passes_subdivision_choose(const device_scene *scene, const device_material *material,
-                                   uint32_t clusters) {
+                                   uint32_t clusters, double tolerance) {
     const lobe_mask mask = passes_lobe_mask(scene, material);
     double errors[3] = {0};
     material_patch source;

@@ -6,8 +6,9 @@
 /// The smallest subdivision [0, 2] whose mixtures, in tangent space, are about as close to the
 /// material's lobes as those of the best one. Decided from a few patches of its maps: the ground
 /// truth is the mean of all lobes of a patch that a mask keeps, the candidates are its mixtures of
-/// one, four and eight. `clusters`: CLUSTERS_... of shaders/interface/cluster.h.
+/// one, four and eight. `clusters`: CLUSTERS_... of shaders/interface/cluster.h. `tolerance`: how
+/// many times the smallest error is good enough, at least 1.
 uint32_t passes_subdivision_choose(const device_scene *scene, const device_material *material,
-                                   uint32_t clusters);
+                                   uint32_t clusters, double tolerance);
 
 #endif
