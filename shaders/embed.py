@@ -144,7 +144,7 @@ def compile_shader(tools, folder, includes, shader, scratch):
     return output.read_bytes()
 
 
-def words_of(tools, folder, includes, shader, scratch):
+def kept_words(tools, folder, includes, shader, scratch):
     """The file in which the SPIR-V words of one shader are kept."""
     kept = kept_folder(tools) / digest_of(tools, folder, includes, shader)
     if not kept.is_file():
@@ -173,10 +173,11 @@ def quoted(text):
 def inclusion(name, path):
     """Declares an array of words and lets the assembler read it from a file: a compiler takes half
     a minute for all shaders."""
-    directives = (".pushsection .rodata", ".balign 4", f".globl {name}", f".hidden {name}",
-                  f"{name}: .incbin {quoted(str(path))}", ".popsection")
+    lines = (".pushsection .rodata", ".balign 4", f".globl {name}", f".hidden {name}",
+             f"{name}: .incbin {quoted(str(path))}", ".popsection")
+    directives = "\n".join(lines)
     return (f'extern __attribute__((visibility("hidden"))) const uint32_t {name}[];\n'
-            f'__asm__({quoted(chr(10).join(directives))});')
+            f'__asm__({quoted(directives)});')
 
 
 def table_text(table, shaders, kept):
@@ -237,7 +238,7 @@ def main():
     kept_folder(arguments).mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch, \
             concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = [pool.submit(words_of, arguments, folders[0], folders, shader, scratch)
+        futures = [pool.submit(kept_words, arguments, folders[0], folders, shader, scratch)
                    for shader in shaders]
         failures = [str(future.exception()) for future in futures if future.exception()]
         if failures:
