@@ -89,6 +89,7 @@ typedef struct engine_graph_command {
     float value[4];
     uint64_t read_back_offset, read_back_size; ///< bytes
     lobe_resource read_back;
+    uint64_t late_number; ///< for lobe_graph_late_data; 0: none
     const char *export_shader;
 
     // Set by compilation, from the shaders
@@ -134,6 +135,7 @@ typedef enum engine_graph_phase {
 
 typedef struct engine_graph_frame {
     engine_graph_phase phase;
+    bool aside;         ///< between the others: leaves alone what it does not declare
     lobe_result result; ///< the first failure of this frame
     engine_arena arena;
     engine_dependency_graph dependencies;

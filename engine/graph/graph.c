@@ -40,6 +40,7 @@ static void reset_frame(lobe_graph *graph) {
     graph->frame.exported_buffers = 0;
     graph->frame.result = LOBE_OK;
     graph->frame.phase = ENGINE_GRAPH_DECLARING;
+    graph->frame.aside = false;
 }
 
 void lobe_graph_destroy(lobe_graph **graph) {
@@ -62,15 +63,25 @@ void lobe_graph_destroy(lobe_graph **graph) {
     *graph = NULL;
 }
 
-void lobe_graph_begin(lobe_graph *graph) {
-    if (!graph)
-        return;
+static void begin(lobe_graph *graph, bool aside) {
     reset_frame(graph);
+    graph->frame.aside = aside;
     engine_graph_begin_retained(graph);
-    lobe_result result = engine_graph_begin_flight(graph);
+    lobe_result result =
+        aside ? engine_graph_begin_aside_flight(graph) : engine_graph_begin_flight(graph);
     if (result == LOBE_OK)
         result = engine_uploads_begin_frame(&graph->kept.uploads);
     engine_graph_propagate(graph, result);
+}
+
+void lobe_graph_begin(lobe_graph *graph) {
+    if (graph)
+        begin(graph, false);
+}
+
+void lobe_graph_begin_aside(lobe_graph *graph) {
+    if (graph)
+        begin(graph, true);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -210,6 +221,9 @@ lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *s
     if (!submission)
         return lobe_graph_fail(graph, LOBE_ERROR_INVALID_ARGUMENT,
                                "lobe_graph_submit: submission must not be NULL");
+    if (graph->frame.aside)
+        return lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                               "render graph: a frame between others can only be executed");
     lobe_result result = check_submission(graph, submission);
     if (result == LOBE_OK)
         result = run(graph, submission);

@@ -96,7 +96,8 @@ void lobe_graph_output(lobe_graph *graph, lobe_resource resource) {
 }
 
 /// Adds an internal pass, so that dependencies and barriers need no special case.
-void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range) {
+static void read_back(lobe_graph *graph, lobe_resource resource, lobe_range range,
+                      uint64_t late_number) {
     if (!engine_graph_can_declare(graph, "a read back"))
         return;
     lobe_pass *pass = engine_graph_add_pass(graph, LOBE_PASS_TRANSFER, "read back");
@@ -109,6 +110,7 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
     if (!command)
         return;
     command->read_back = resource;
+    command->late_number = late_number;
     command->source_access = transfer_access(pass, &resource, range, false);
     if (graph->frame.result != LOBE_OK)
         return;
@@ -121,4 +123,15 @@ void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range 
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
                         "resource '%s' is multisampled: resolve it before reading it back",
                         source->name);
+}
+
+void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range) {
+    read_back(graph, resource, range, 0);
+}
+
+uint64_t lobe_graph_read_back_late(lobe_graph *graph, lobe_resource resource, lobe_range range) {
+    if (!graph)
+        return 0;
+    read_back(graph, resource, range, ++graph->kept.late_number);
+    return graph->frame.result == LOBE_OK ? graph->kept.late_number : 0;
 }

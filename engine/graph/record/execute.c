@@ -4,6 +4,7 @@
 
 #include <lobe/vulkan.h>
 
+#include "engine/base/growing_array.h"
 #include "engine/device/vulkan_check.h"
 #include "engine/graph/report.h"
 #include "engine/graph/store/store.h"
@@ -20,20 +21,60 @@ static engine_graph_command *read_back_of(const lobe_pass *pass) {
 }
 
 static lobe_result place_read_backs(lobe_graph *graph) {
+    engine_graph_flight *flight = graph->frame.flight;
     uint64_t size = 0;
+    uint32_t late_count = 0;
+    flight->late_count = 0;
     for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
         engine_graph_command *command = read_back_of(graph->frame.passes[i]);
         if (!command)
             continue;
+        late_count += command->late_number > 0;
         command->read_back_offset = size;
         size += (command->read_back_size + READ_BACK_ALIGNMENT - 1) / READ_BACK_ALIGNMENT *
                 READ_BACK_ALIGNMENT;
     }
-    if (size <= graph->frame.flight->read_back.size)
+    if (!engine_array_reserve(graph->device->host.allocator, (void **)&flight->late_data,
+                              &flight->late_capacity, late_count, sizeof *flight->late_data))
+        return engine_graph_fail_memory(graph);
+    if (size <= flight->read_back.size)
         return LOBE_OK;
-    engine_staging_destroy(graph->device, &graph->frame.flight->read_back);
+    engine_staging_destroy(graph->device, &flight->read_back);
     return engine_staging_create(graph->device, "read back of the frame", size,
-                                 ENGINE_MEMORY_READ_BACK, &graph->frame.flight->read_back);
+                                 ENGINE_MEMORY_READ_BACK, &flight->read_back);
+}
+
+/// The frame's declaration is gone when its late data are there.
+static void note_late_data(lobe_graph *graph) {
+    engine_graph_flight *flight = graph->frame.flight;
+    for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++) {
+        const engine_graph_command *command = read_back_of(graph->frame.passes[i]);
+        if (command && command->late_number > 0)
+            flight->late_data[flight->late_count++] =
+                (engine_graph_late_data){command->late_number, command->read_back_offset};
+    }
+}
+
+static const engine_graph_flight *find_late_data(const lobe_graph *graph, uint64_t number,
+                                                 uint64_t *offset) {
+    for (uint32_t f = 0; f <= LOBE_MAXIMUM_FRAMES_IN_FLIGHT; f++) {
+        const engine_graph_flight *flight =
+            f < LOBE_MAXIMUM_FRAMES_IN_FLIGHT ? &graph->kept.flights[f] : &graph->kept.aside;
+        for (uint32_t i = 0; i < flight->late_count; i++)
+            if (flight->late_data[i].number == number) {
+                *offset = flight->late_data[i].offset;
+                return flight;
+            }
+    }
+    return NULL;
+}
+
+const void *lobe_graph_late_data(const lobe_graph *graph, uint64_t number, bool *pending) {
+    uint64_t offset;
+    const engine_graph_flight *flight = graph ? find_late_data(graph, number, &offset) : NULL;
+    if (pending)
+        *pending = flight && flight->busy;
+    return flight && !flight->busy ? (const char *)flight->read_back.mapped + offset : NULL;
 }
 
 const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size) {
@@ -134,6 +175,8 @@ static lobe_result submit(lobe_graph *graph, const lobe_vulkan_submission *submi
     if (result != LOBE_OK)
         return result;
     flight->busy = true;
+    graph->kept.last = flight;
+    note_late_data(graph);
     flight->copied = engine_uploads_commit(&graph->kept.uploads, !flight->submission);
     if (flight->submission)
         engine_pipelines_end_use_after(graph->device, &flight->pipelines, flight->submission);

@@ -15,6 +15,11 @@ static lobe_result add_variable(lobe_graph *graph, const lobe_pass *pass,
     *descriptor = (lobe_vulkan_descriptor){.binding = variable->binding, .type = variable->type};
     lobe_result result =
         engine_graph_describe(graph, binding, variable, &descriptor->image, &descriptor->buffer);
+    engine_graph_retained *kept =
+        graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource]
+            .retained;
+    if (kept)
+        kept->exported = true;
     // Host images are back in the layout that the host asked for.
     const lobe_vulkan_image *host =
         graph->frame.resources[graph->frame.dependencies.accesses[binding->access].resource].host;

@@ -42,6 +42,7 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
     engine_graph_object imported = {.views = flight->views};
     engine_graph_free_views(graph->device, &imported);
     flight->views = NULL;
+    engine_graph_free_released(graph, flight);
     engine_uploads_release(&graph->kept.uploads, flight->copied);
     if (flight->busy)
         engine_pipelines_end_use(graph->device, &flight->pipelines);
@@ -55,8 +56,19 @@ static lobe_result wait_unless_finished(lobe_device *device, uint64_t submission
                                                         : engine_device_wait(device, submission);
 }
 
+lobe_result engine_graph_begin_aside_flight(lobe_graph *graph) {
+    engine_graph_flight *aside = &graph->kept.aside;
+    if (graph->frame.flight != aside)
+        graph->kept.resumed = graph->frame.flight;
+    graph->frame.flight = aside;
+    engine_pipelines_end_use(graph->device, &aside->pipelines);
+    return create_commands(graph, aside);
+}
+
 lobe_result engine_graph_begin_flight(lobe_graph *graph) {
     lobe_result result = LOBE_OK;
+    if (graph->frame.flight == &graph->kept.aside)
+        graph->frame.flight = graph->kept.resumed;
     if (graph->frame.flight->busy) {
         // Round robin: the next one is the oldest.
         uint32_t index = (uint32_t)(graph->frame.flight - graph->kept.flights);
@@ -119,6 +131,7 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
     engine_pipelines_end_use(device, &flight->pipelines);
     engine_buffer_destroy_placed(device, &flight->uploads.buffer, &flight->upload_memory);
     engine_staging_destroy(device, &flight->read_back);
+    lobe_release(flight->late_data);
     device->api.vkDestroyDescriptorPool(device->vulkan, flight->descriptors, device->callbacks);
     lobe_release(flight->sets);
     device->api.vkDestroyQueryPool(device->vulkan, flight->timestamps, device->callbacks);
@@ -128,4 +141,5 @@ static void free_flight(lobe_graph *graph, engine_graph_flight *flight) {
 void engine_graph_free_flights(lobe_graph *graph) {
     for (uint32_t i = 0; i < LOBE_MAXIMUM_FRAMES_IN_FLIGHT; i++)
         free_flight(graph, &graph->kept.flights[i]);
+    free_flight(graph, &graph->kept.aside);
 }

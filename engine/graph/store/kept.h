@@ -46,6 +46,7 @@ typedef struct engine_graph_retained {
     bool lent;              ///< other graphs may find it or hold it: nobody writes it
     bool separate;          ///< was invalidated: this graph's own from then on
     bool permanent;         ///< kept as long as the graph
+    bool exported;          ///< the host may have it in descriptors of its own
     engine_graph_object object;
     engine_allocation allocation;
     engine_shared *shared; ///< how they find it; NULL: never
@@ -63,6 +64,11 @@ typedef struct engine_graph_transients {
     uint64_t shared_bytes, separate_bytes;
 } engine_graph_transients;
 
+/// Bytes that a frame reads back for a later one: where they lie in its staging memory.
+typedef struct engine_graph_late_data {
+    uint64_t number, offset;
+} engine_graph_late_data;
+
 /// What a frame needs until the device has finished it.
 typedef struct engine_graph_flight {
     bool busy; ///< submitted, or recorded for the host to submit; not known to be finished
@@ -74,7 +80,10 @@ typedef struct engine_graph_flight {
     uint64_t upload_size;
     uint64_t copied; ///< position of the graph's uploads where the frame's copies end
     engine_staging read_back;
-    engine_graph_view *views; ///< of host images that came without a view
+    engine_graph_late_data *late_data; ///< of the frame last submitted
+    uint32_t late_count, late_capacity;
+    engine_graph_retained *released; ///< that the frame after this one did not declare
+    engine_graph_view *views;        ///< of host images that came without a view
     VkDescriptorPool descriptors;
     uint32_t descriptor_capacity[5]; ///< sets, then descriptors by type
     VkDescriptorSet *sets;           ///< from the pool, in the order of the commands
@@ -90,7 +99,11 @@ typedef struct engine_graph_kept {
     engine_graph_retained *retained;
     engine_graph_transients transients;
     engine_graph_flight flights[LOBE_MAXIMUM_FRAMES_IN_FLIGHT];
-    uint32_t flight_count; ///< in use
+    uint32_t flight_count;        ///< in use
+    engine_graph_flight aside;    ///< of frames between the others, which are waited for
+    engine_graph_flight *resumed; ///< by the frame after one aside
+    engine_graph_flight *last;    ///< of the frame last submitted; NULL: none was
+    uint64_t late_number;         ///< the largest given out
 } engine_graph_kept;
 
 #endif

@@ -48,18 +48,43 @@ void engine_graph_free_retained(lobe_graph *graph) {
     }
 }
 
+void engine_graph_free_released(lobe_graph *graph, engine_graph_flight *flight) {
+    while (flight->released) {
+        engine_graph_retained *kept = flight->released;
+        flight->released = kept->next;
+        free_retained(graph, kept);
+    }
+}
+
+/// Frames run in the order of their submission: what the last one may use goes when it has
+/// finished. What was exported may be used by the host after that.
+static lobe_result release(lobe_graph *graph, engine_graph_retained *kept) {
+    engine_graph_flight *last = graph->kept.last;
+    const bool waits = kept->exported;
+    const lobe_result result = waits ? engine_graph_finish_flights(graph) : LOBE_OK;
+    if (!waits && last && last->busy) {
+        kept->next = last->released;
+        last->released = kept;
+    } else if (result == LOBE_OK) {
+        free_retained(graph, kept);
+    }
+    return result;
+}
+
 lobe_result engine_graph_release_retained(lobe_graph *graph) {
+    if (graph->frame.aside)
+        return LOBE_OK;
     for (engine_graph_retained **link = &graph->kept.retained; *link;) {
         engine_graph_retained *kept = *link;
         if (kept->declared || kept->permanent) {
             link = &kept->next;
             continue;
         }
-        const lobe_result result = engine_graph_finish_flights(graph);
+        engine_graph_retained *next = kept->next;
+        const lobe_result result = release(graph, kept);
         if (result != LOBE_OK)
             return result;
-        *link = kept->next;
-        free_retained(graph, kept);
+        *link = next;
     }
     return LOBE_OK;
 }

@@ -34,9 +34,13 @@ lobe_result engine_graph_add_retained(lobe_graph *graph, uint32_t index);
 /// Lets the object and its content go. All frames must have finished.
 void engine_graph_drop_retained(lobe_graph *graph, engine_graph_retained *kept);
 
+/// Frees what the frame after this flight's did not declare. The flight's frame must have finished.
+void engine_graph_free_released(lobe_graph *graph, engine_graph_flight *flight);
+
 /// Compilation: drops the content of retained objects that were not created for this frame's uses.
 lobe_result engine_graph_check_retained(lobe_graph *graph);
-/// Compilation: frees the retained resources that this frame does not declare.
+/// Compilation: frees the retained resources that this frame does not declare, once no frame in
+/// flight uses them.
 lobe_result engine_graph_release_retained(lobe_graph *graph);
 /// Compilation: creates the retained objects that running passes need.
 lobe_result engine_graph_place_retained(lobe_graph *graph);
@@ -79,6 +83,8 @@ void engine_graph_release_imports(lobe_graph *graph);
 lobe_result engine_graph_create_flights(lobe_graph *graph);
 /// New frame: takes a free flight, or waits for the oldest one.
 lobe_result engine_graph_begin_flight(lobe_graph *graph);
+/// New frame between the others: takes a flight of its own.
+lobe_result engine_graph_begin_aside_flight(lobe_graph *graph);
 /// Waits for all frames of the graph, and for what the host submitted since, so that anything they
 /// use can be freed, exports too. Returns at once if none is in flight. After a failure they may
 /// still be running.

@@ -12,6 +12,13 @@ static bool is_placed(const lobe_graph *graph, uint32_t index) {
            graph->frame.dependencies.resources[index].first_position != ENGINE_DEPENDENCY_NONE;
 }
 
+static bool has_transients(const lobe_graph *graph) {
+    bool has = false;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
+        has = has || is_placed(graph, i);
+    return has;
+}
+
 /// Mixes in which of the transients declared before this one are alive at the same time as it: the
 /// placement depends on nothing else about their lifetimes.
 static engine_stamp mix_neighbours(engine_stamp stamp, const lobe_graph *graph, uint32_t index) {
@@ -236,6 +243,8 @@ static void publish_transients(lobe_graph *graph) {
 }
 
 lobe_result engine_graph_place_transients(lobe_graph *graph) {
+    if (graph->frame.aside && !has_transients(graph))
+        return LOBE_OK; // the next frame finds those of the last one
     engine_stamp plan = plan_stamp(graph);
     if (graph->kept.transients.plan != plan) {
         lobe_result result = LOBE_OK;

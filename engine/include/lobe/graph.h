@@ -73,6 +73,10 @@ LOBE_API void lobe_graph_destroy(lobe_graph **graph);
 /// (see lobe_graph_set_frames_in_flight). Retained resources that the new frame does not declare
 /// again are freed when it is compiled, except for permanent ones.
 LOBE_API void lobe_graph_begin(lobe_graph *graph);
+/// Starts a frame between the others, which can only be executed, not submitted: for what must be
+/// known before the next frame is declared. It has command and staging memory of its own, and what
+/// it does not declare stays as the last frame left it.
+LOBE_API void lobe_graph_begin_aside(lobe_graph *graph);
 
 // ---------------------------------------------------------------------------------------------
 // Resources
@@ -350,6 +354,10 @@ LOBE_API LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_re
 LOBE_API void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
 /// Marks content as an output that is copied to host memory, see lobe_graph_data.
 LOBE_API void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
+/// The same for a frame that nobody waits for. Returns the number by which lobe_graph_late_data
+/// finds the bytes; 0: the frame has failed.
+LOBE_API uint64_t lobe_graph_read_back_late(lobe_graph *graph, lobe_resource resource,
+                                            lobe_range range);
 
 /// Validates, orders and culls the passes, places resources in memory and derives barriers, without
 /// running anything. lobe_graph_execute and lobe_graph_submit do this if it has not been done.
@@ -381,9 +389,9 @@ LOBE_API void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count)
 /// buffer, as `submission` says. lobe_graph_begin waits until fewer frames than allowed are in
 /// flight. It cannot wait for frames in command buffers of the host: with N frames in flight, the
 /// host must make sure that the frame recorded N frames ago has finished before it begins the next.
-/// If a frame needs other memory than the last (images of another extent, other retained
-/// resources), its compilation waits for the queue. After a failure, the host's command buffer must
-/// not be submitted.
+/// If a frame needs other memory than the last (images of another extent), or does not declare what
+/// was exported, its compilation waits for the queue. After a failure, the host's command buffer
+/// must not be submitted.
 /// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
 /// buffer, or too many).
 LOBE_API lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
@@ -398,6 +406,12 @@ LOBE_API lobe_result lobe_graph_wait(lobe_graph *graph);
 /// lobe_graph_begin. NULL if `resource` was not marked with lobe_graph_read_back. `size` may be
 /// NULL.
 LOBE_API const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
+
+/// The bytes read back by lobe_graph_read_back_late, once the device is known to have finished
+/// their frame, so that waiting is not needed: while several frames are in flight, when the frame
+/// is declared that takes that one's place. Valid until that frame is executed or submitted. NULL:
+/// not yet, or no longer. `*pending` (may be NULL): they may still come.
+LOBE_API const void *lobe_graph_late_data(const lobe_graph *graph, uint64_t number, bool *pending);
 
 /// Marks all retained content as out of date, so that the passes that write it run again, except
 /// for permanent images. The memory stays, unless other graphs use it too; from then on they do

@@ -95,3 +95,36 @@ void graph_fixture_expect(graph_fixture *fixture, lobe_result expected, const ch
         if (!strstr(fixture->recorder.last_error, *words))
             fail_msg("no '%s' in: %s", *words, fixture->recorder.last_error);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Gates
+
+graph_gate graph_gate_close(const graph_fixture *fixture) {
+    lobe_vulkan_device vulkan;
+    lobe_vulkan_export_device(fixture->device, &vulkan);
+    graph_gate made = {.device = vulkan.device};
+    const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                            .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
+    const VkSemaphoreCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
+                                          .pNext = &type};
+    assert_int_equal(vkCreateSemaphore(made.device, &create, NULL, &made.semaphore), VK_SUCCESS);
+    return made;
+}
+
+void graph_gate_destroy(const graph_gate *gate) {
+    vkDestroySemaphore(gate->device, gate->semaphore, NULL);
+}
+
+void graph_gate_submit_behind(graph_fixture *fixture, const graph_gate *gate, uint64_t value) {
+    const lobe_vulkan_semaphore wait = {.semaphore = gate->semaphore, .value = value};
+    assert_int_equal(lobe_graph_submit(fixture->graph,
+                                       &(lobe_vulkan_submission){.waits = &wait, .wait_count = 1}),
+                     LOBE_OK);
+}
+
+void graph_gate_open(const graph_gate *gate, uint64_t value) {
+    const VkSemaphoreSignalInfo signal = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO,
+                                          .semaphore = gate->semaphore,
+                                          .value = value};
+    assert_int_equal(vkSignalSemaphore(gate->device, &signal), VK_SUCCESS);
+}

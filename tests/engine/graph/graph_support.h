@@ -2,6 +2,7 @@
 #define TESTS_ENGINE_GRAPH_GRAPH_SUPPORT_H
 
 #include <lobe/graph.h>
+#include <lobe/vulkan.h>
 
 #include "tests/engine/support/log_recorder.h"
 
@@ -40,5 +41,18 @@ void graph_fixture_execute(graph_fixture *fixture);
 void graph_fixture_expect(graph_fixture *fixture, lobe_result expected, const char *const words[]);
 #define GRAPH_EXPECT(fixture, expected, ...)                                                       \
     graph_fixture_expect((fixture), (expected), (const char *const[]){__VA_ARGS__, NULL})
+
+/// Lets the device begin with frames only when the test says so: whoever waited for them before
+/// that would wait forever.
+typedef struct graph_gate {
+    VkSemaphore semaphore;
+    VkDevice device;
+} graph_gate;
+
+graph_gate graph_gate_close(const graph_fixture *fixture);
+void graph_gate_destroy(const graph_gate *gate);
+/// Submits the fixture's frame, which the device begins once the gate is open at `value`.
+void graph_gate_submit_behind(graph_fixture *fixture, const graph_gate *gate, uint64_t value);
+void graph_gate_open(const graph_gate *gate, uint64_t value);
 
 #endif

@@ -315,38 +315,6 @@ static void parts_of_a_plain_texture(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Frames in flight
 
-/// Lets the device begin with frames only when the test says so.
-typedef struct gate {
-    VkSemaphore semaphore;
-    VkDevice device;
-} gate;
-
-static gate close_gate(graph_fixture *f) {
-    lobe_vulkan_device vulkan;
-    lobe_vulkan_export_device(f->device, &vulkan);
-    gate made = {.device = vulkan.device};
-    const VkSemaphoreTypeCreateInfo type = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
-                                            .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
-    const VkSemaphoreCreateInfo create = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
-                                          .pNext = &type};
-    assert_int_equal(vkCreateSemaphore(made.device, &create, NULL, &made.semaphore), VK_SUCCESS);
-    return made;
-}
-
-static void open_gate(const gate *gate, uint64_t value) {
-    const VkSemaphoreSignalInfo signal = {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO,
-                                          .semaphore = gate->semaphore,
-                                          .value = value};
-    assert_int_equal(vkSignalSemaphore(gate->device, &signal), VK_SUCCESS);
-}
-
-static void submit_behind(graph_fixture *f, const gate *gate, uint64_t value) {
-    const lobe_vulkan_semaphore wait = {.semaphore = gate->semaphore, .value = value};
-    assert_int_equal(
-        lobe_graph_submit(f->graph, &(lobe_vulkan_submission){.waits = &wait, .wait_count = 1}),
-        LOBE_OK);
-}
-
 enum { FRAMES = 3 };
 
 /// One copy of the texture, with the others kept as they are; all are read back in the last frame.
@@ -365,7 +333,7 @@ static void declare_frame(graph_fixture *f, const lobe_texture *texture, int num
 
 /// Frames that the device cannot begin, each with its own content of one texture: whoever waited
 /// for the device would wait forever. `recreate`: the texture is destroyed and created again.
-static void check_frames_in_flight(graph_fixture *f, const gate *gate, uint64_t value,
+static void check_frames_in_flight(graph_fixture *f, const graph_gate *gate, uint64_t value,
                                    bool recreate, lobe_texture **texture) {
     contents content[FRAMES];
     lobe_resource copies[FRAMES];
@@ -378,9 +346,9 @@ static void check_frames_in_flight(graph_fixture *f, const gate *gate, uint64_t 
             update(*texture, &content[n], (lobe_rectangle){0, 0, WIDTH, HEIGHT});
         }
         declare_frame(f, *texture, n, copies);
-        submit_behind(f, gate, value);
+        graph_gate_submit_behind(f, gate, value);
     }
-    open_gate(gate, value);
+    graph_gate_open(gate, value);
     assert_int_equal(lobe_graph_wait(f->graph), LOBE_OK);
     for (int n = 0; n < FRAMES; n++)
         assert_data(f, copies[n], &content[n]);
@@ -388,7 +356,7 @@ static void check_frames_in_flight(graph_fixture *f, const gate *gate, uint64_t 
 
 static void frames_in_flight_keep_their_content(void **state) {
     graph_fixture *f = *state;
-    gate gate = close_gate(f);
+    graph_gate gate = graph_gate_close(f);
     contents first = pattern(1);
     lobe_texture *texture = create_texture(f, &first);
     lobe_resource copies[FRAMES];
@@ -401,7 +369,7 @@ static void frames_in_flight_keep_their_content(void **state) {
         check_frames_in_flight(f, &gate, value, value % 2 == 0, &texture);
     lobe_texture_destroy(&texture);
     lobe_graph_destroy(&f->graph);
-    vkDestroySemaphore(gate.device, gate.semaphore, NULL);
+    graph_gate_destroy(&gate);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -505,7 +473,7 @@ static void objects_come_and_go_between_frames(void **state) {
     const lobe_buffer_parameters large = {.name = "large", .size = LARGE};
     graph_fixture *f = *state;
     contents content = pattern(1);
-    gate gate = close_gate(f);
+    graph_gate gate = graph_gate_close(f);
     lobe_device_memory before, after;
     lobe_texture *kept = create_texture(f, &content);
     assert_texture(f, kept, &content);
@@ -513,7 +481,7 @@ static void objects_come_and_go_between_frames(void **state) {
         lobe_graph_begin(f->graph);
         lobe_graph_output(f->graph, declare_copy(f, kept, "seen"));
         if (in_flight)
-            submit_behind(f, &gate, 1);
+            graph_gate_submit_behind(f, &gate, 1);
         update(kept, &content, (lobe_rectangle){0, 0, 1, 1});
         lobe_device_memory_query(f->device, &before);
         for (int n = 0; n < OBJECTS; n++) {
@@ -528,11 +496,11 @@ static void objects_come_and_go_between_frames(void **state) {
         assert_true(f->graph->kept.uploads.ring.discards.count < 5); // the ring has grown
         assert_int_equal(waiting(f), 1);
     }
-    open_gate(&gate, 1);
+    graph_gate_open(&gate, 1);
     assert_texture(f, kept, &content);
     lobe_texture_destroy(&kept);
     lobe_graph_destroy(&f->graph);
-    vkDestroySemaphore(gate.device, gate.semaphore, NULL);
+    graph_gate_destroy(&gate);
 }
 
 /// Nothing can fail when an object goes while frames are in flight, so nobody has to wait for them:
@@ -556,19 +524,19 @@ static void destruction_allocates_nothing(void **state) {
         textures[n] = create_texture(&f, &content);
         buffers[n] = create_buffer(&f, &content);
     }
-    gate gate = close_gate(&f);
+    graph_gate gate = graph_gate_close(&f);
     lobe_graph_begin(f.graph);
     lobe_graph_output(f.graph, declare_copy(&f, textures[0], "seen"));
-    submit_behind(&f, &gate, 1);
+    graph_gate_submit_behind(&f, &gate, 1);
     counting.taken = 0;
     for (int n = 0; n < OBJECTS; n++) {
         lobe_texture_destroy(&textures[n]);
         lobe_buffer_destroy(&buffers[n]);
     }
     assert_int_equal(counting.taken, 0);
-    open_gate(&gate, 1);
+    graph_gate_open(&gate, 1);
     lobe_graph_destroy(&f.graph);
-    vkDestroySemaphore(gate.device, gate.semaphore, NULL);
+    graph_gate_destroy(&gate);
     lobe_device_destroy(&f.device);
     assert_nothing_left(&counting);
 }

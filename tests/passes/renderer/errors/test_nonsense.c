@@ -194,6 +194,7 @@ static void graphs_that_are_none(void **state) {
     REFUSED_SILENTLY(lobe_graph_create(NULL, NULL));
     lobe_graph_destroy(NULL);
     lobe_graph_begin(NULL);
+    lobe_graph_begin_aside(NULL);
     assert_int_equal(lobe_graph_image(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_buffer(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_import_texture(NULL, NULL).version, 0);
@@ -221,6 +222,7 @@ static void graphs_that_are_none(void **state) {
     assert_int_equal(lobe_graph_fail(NULL, LOBE_ERROR_READ, "%s", "nobody hears"), LOBE_ERROR_READ);
     lobe_graph_output(NULL, none);
     lobe_graph_read_back(NULL, none, all);
+    assert_int_equal(lobe_graph_read_back_late(NULL, none, all), 0);
     REFUSED_SILENTLY(lobe_graph_compile(NULL));
     REFUSED_SILENTLY(lobe_graph_prepare(NULL, NULL, NULL));
     REFUSED_SILENTLY(lobe_graph_execute(NULL));
@@ -228,6 +230,7 @@ static void graphs_that_are_none(void **state) {
     REFUSED_SILENTLY(lobe_graph_wait(NULL));
     lobe_graph_set_frames_in_flight(NULL, 2);
     assert_null(lobe_graph_data(NULL, none, NULL));
+    assert_null(lobe_graph_late_data(NULL, 1, NULL));
     lobe_graph_invalidate(NULL);
     lobe_graph_invalidate_except(NULL, NULL);
     assert_null(lobe_graph_describe(NULL));
