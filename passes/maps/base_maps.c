@@ -89,7 +89,10 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
         kind->layers + (passes_lobes_are_masked(material) ? kind->mask_layers : 0);
     char name[64];
     snprintf(name, sizeof name, "%s of material %u", kind->content, index);
-    reduced_map map = passes_seen_map_declare(context, index, name, format, layers, true);
+    reduced_map map =
+        passes_seen_map_declare_if(context, index, name, format, layers, true, kind->groups);
+    map.groups = kind->groups;
+    map.groups_offset = kind->groups_offset;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
     passes_base_maps_read(context, material, false, pass);
     passes_base_colour_read(context, material, kind->reads_base_colour, pass);

@@ -5,6 +5,7 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/sample_count.h"
+#include "passes/maps/colours/colour_correlation.h"
 #include "passes/maps/colours/colour_normals.h"
 #include "passes/maps/colours/mask_coverage.h"
 #include "passes/maps/colours/metal_means.h"
@@ -165,12 +166,20 @@ static void bind_colour_normals(const filter_context *context, uint32_t index,
                                 filtered_appearance *appearance) {
     const device_material *material = &context->scene->materials[index];
     const bool has_map = passes_has_colour_normals(context, index);
+    const bool may_have_map = !context->filter->reads_heights &&
+                              passes_colours_lie_like_normals(material) &&
+                              (has_map || material->colours.was_open);
     passes_appearance_bind(
         appearance, "colour_normal_map",
         has_map ? colour_normals(context, index)
                 : lobe_graph_import_texture(context->graph, context->scene->white),
         passes_filtered_map_sampler(context, material, passes_lobe_grid(material).map));
-    passes_appearance_specialise(appearance, SPECIALISE_COLOUR_NORMALS, has_map);
+    passes_appearance_bind(appearance, "correlation_block",
+                           may_have_map
+                               ? passes_colour_correlation(context, index)
+                               : lobe_graph_import_buffer(context->graph, material->map_constants),
+                           (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_COLOUR_NORMALS, may_have_map);
 }
 
 static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {

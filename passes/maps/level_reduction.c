@@ -63,6 +63,9 @@ void passes_reduced_map_dispatch(const reduced_map *map, lobe_pass *pass, uint32
         lobe_pass_read(pass, &(lobe_binding){.name = "tile_list_block", .resource = map->tiles});
         dispatch->indirect = map->tiles;
         dispatch->indirect_offset = level * MAP_TILE_RECORD * sizeof(uint32_t);
+    } else if (map->groups.version > 0) {
+        dispatch->indirect = map->groups;
+        dispatch->indirect_offset = map->groups_offset + level * 4 * sizeof(uint32_t);
     }
     dispatch->threads[0] = extent_at(map->width, level);
     dispatch->threads[1] = extent_at(map->height, level);

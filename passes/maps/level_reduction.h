@@ -13,6 +13,10 @@ typedef struct reduced_map {
     /// is not made whole; version 0: it is.
     lobe_resource tiles;
     bool keeps; ///< tiles that are not listed keep their content
+    /// Where a pass decides whether a map that has no tiles is made: lobe_dispatch_arguments for
+    /// each level, 16 bytes apart from this many bytes on; version 0: it is made.
+    lobe_resource groups;
+    size_t groups_offset;
 } reduced_map;
 
 /// Levels of a full chain: floor(log2(max(width, height))) + 1.

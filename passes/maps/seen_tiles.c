@@ -89,6 +89,7 @@ typedef struct tile_source {
     uint32_t width, height; ///< texels
     uint32_t first_mark, content;
     bool reduced;
+    lobe_resource condition; ///< version 0: none
 } tile_source;
 
 static void list_tiles(const filter_context *context, const tile_source *source, const char *name,
@@ -112,9 +113,14 @@ static void list_tiles(const filter_context *context, const tile_source *source,
         .content = source->content,
         .forgets = !map->keeps,
         .reduced = source->reduced,
+        .conditional = source->condition.version > 0,
     };
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass, &(lobe_binding){.name = "mark_block", .resource = context->marks->marks});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "condition_block",
+                                   .resource = constants.conditional ? source->condition
+                                                                     : context->marks->marks});
     const lobe_binding known = {.name = "state_block", .resource = states};
     (void)(map->keeps ? lobe_pass_modify(pass, &known) : lobe_pass_write(pass, &known));
     map->tiles =
@@ -127,14 +133,22 @@ static void list_tiles(const filter_context *context, const tile_source *source,
 
 reduced_map passes_seen_map_declare(const filter_context *context, uint32_t index, const char *name,
                                     lobe_format format, uint32_t layers, bool reduced) {
+    return passes_seen_map_declare_if(context, index, name, format, layers, reduced,
+                                      (lobe_resource){0});
+}
+
+reduced_map passes_seen_map_declare_if(const filter_context *context, uint32_t index,
+                                       const char *name, lobe_format format, uint32_t layers,
+                                       bool reduced, lobe_resource condition) {
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
     reduced_map map = passes_reduced_map_declare(context->graph, name, format, grid.width,
                                                  grid.height, layers, !context->marks);
     if (!context->marks)
         return map;
-    const tile_source source = {grid.width, grid.height, context->marks->first_marks[index],
-                                content_of(context, material), reduced};
+    const tile_source source = {
+        grid.width, grid.height, context->marks->first_marks[index], content_of(context, material),
+        reduced,    condition};
     list_tiles(context, &source, name, &map);
     return map;
 }
@@ -149,8 +163,8 @@ reduced_map passes_seen_image_declare(const filter_context *context,
                                                  own->height, 1, first == NO_TILE_MARKS);
     if (first == NO_TILE_MARKS)
         return map;
-    const tile_source source = {own->width, own->height, first,
-                                content_of_image(context, own->image), true};
+    const tile_source source = {
+        own->width, own->height, first, content_of_image(context, own->image), true, {0}};
     list_tiles(context, &source, name, &map);
     return map;
 }

@@ -7,6 +7,7 @@
 #include "passes/filters/material_shading.h"
 #include "passes/filters/settings.h"
 #include "passes/filters/slots.h"
+#include "passes/maps/colours/colour_correlation.h"
 #include "passes/maps/waves.h"
 #include "passes/own_shading/material_scene.h"
 #include "passes/upload/device_scene_parts.h"
@@ -94,7 +95,8 @@ static lobe_result fill(lobe_maps *maps, lobe_device *device) {
         return result;
     const filter_context context = context_of(maps, &images);
     passes_filter_warn(maps->filter, maps->uploaded, host);
-    return passes_environment_light_check(&context);
+    result = passes_environment_light_check(&context);
+    return result == LOBE_OK ? passes_colour_correlations_ask(&context) : result;
 }
 
 lobe_result lobe_maps_create(lobe_device *device, const lobe_maps_parameters *parameters,

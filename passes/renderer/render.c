@@ -1,5 +1,6 @@
 #include "passes/context/camera.h"
 #include "passes/filters/settings.h"
+#include "passes/maps/colours/colour_correlation.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/motion/motion.h"
 #include "passes/renderer/shading.h"
@@ -134,8 +135,12 @@ static lobe_result update_caches(rendering *r) {
 }
 
 lobe_result passes_rendering_begin(rendering *r) {
-    const lobe_result result = prepare(r);
-    return result == LOBE_OK ? update_caches(r) : result;
+    lobe_result result = prepare(r);
+    if (result == LOBE_OK)
+        result = update_caches(r);
+    return result == LOBE_OK && !r->parameters->host.submission
+               ? passes_colour_correlations_ask(&r->context)
+               : result;
 }
 
 /// One submission for each part of the environment's maps, reported to the host: `*stopped` if it
@@ -239,9 +244,13 @@ typedef struct preparation {
     bool stopped;
 } preparation;
 
+static bool is_stopped_from_outside(const preparation *p) {
+    return p->stopped_from_outside && atomic_load(p->stopped_from_outside);
+}
+
 static bool report_preparation(void *user, double part) {
     preparation *p = user;
-    p->stopped = p->stopped || (p->stopped_from_outside && atomic_load(p->stopped_from_outside)) ||
+    p->stopped = p->stopped || is_stopped_from_outside(p) ||
                  (p->host->progress && !p->host->progress(p->host->user, part));
     return !p->stopped;
 }
@@ -265,6 +274,9 @@ static lobe_result prepare_frame(rendering *r, environment_state *environment, l
     r->environment.state = environment;
     r->environment.saves = false;
     r->fits.is_dry = true;
+    result = passes_colour_correlations_ask(&r->context);
+    if (result != LOBE_OK || is_stopped_from_outside(r->parameters->host.user))
+        return result;
     result = passes_environment_light_load(&r->context, &r->environment, r->renderer->device);
     if (result != LOBE_OK)
         return result;

@@ -27,12 +27,16 @@ typedef struct image_metal {
     float value;
 } image_metal;
 
-/// Whether diffuse colours go with normals (passes/upload/colours/colour_correlation.h).
+/// Whether diffuse colours go with normals (passes/maps/colours/colour_correlation.h).
 typedef struct colour_correlation {
-    bool known; ///< false: no filter has asked
+    bool asked; ///< false: no filter has
+    bool known; ///< the answer has come from the device
     bool follow_normals;
-    bool lie_alike;             ///< the maps did when it was found
-    int32_t images[3];          ///< that it was found from: base colour, normal, width; -1: none
+    /// A frame was drawn without knowing it, for which nobody waited. Its pipelines serve either
+    /// answer, and later frames keep them.
+    bool was_open;
+    uint64_t late;              ///< by which the graph finds the answer; 0: no frame asks for it
+    int32_t images[3];          ///< that it is found from: base colour, normal, width; -1: none
     uint32_t texel_versions[3]; ///< of these
     float normal_scale, height_scale, metallic;
     float alpha, cutoff; ///< of its mask (passes/upload/colours/mask_alpha.h); without one, 0

@@ -52,7 +52,7 @@
 #define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
 #define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
 #define SPECIALISE_METAL_MEANS    SPECIALISE(53) // uint, METAL_MEANS_...
-#define SPECIALISE_COLOUR_NORMALS SPECIALISE(54) // bool: diffuse colours go with normals
+#define SPECIALISE_COLOUR_NORMALS SPECIALISE(54) // bool: diffuse colours may go with normals
 #define SPECIALISE_MASKED_LOBES   SPECIALISE(55) // bool: maps of lobes leave out what a mask cuts
 // The first of the filters' own, which are in their headers; no two of any filters are the same.
 #define SPECIALISE_FILTER SPECIALISE(40)

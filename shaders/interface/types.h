@@ -2,9 +2,10 @@
 #define INTERFACE_TYPES_H
 
 // One description of each structure for C and GLSL. Only types whose layout is the same in C,
-// std140 and std430 are used: 4-byte scalars in groups of four, float4 and float4x4.
+// std140 and std430 are used: 4-byte scalars in groups of four, uint4, float4 and float4x4.
 
 #ifdef VULKAN // GLSL
+#define uint4    uvec4
 #define float4   vec4
 #define float4x4 mat4
 #define INTERFACE_SIZE(type, bytes)
@@ -14,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 typedef uint32_t uint;
+typedef uint uint4[4];
 typedef float float4[4];
 typedef float float4x4[16]; // columns
 #define INTERFACE_SIZE(type, bytes)                                                                \

@@ -8,7 +8,7 @@
 // Where the map is interpolated, so is its alpha before it meets the cutoff. Between four texel
 // centres it is bilinear: linear along a line, of which the part above the cutoff is exact.
 
-#include "interface/mask.h"
+#include "interface/colours/mask.h"
 #include "lib/map/box_reduction.glsl"
 #include "lib/number/finite.glsl"
 

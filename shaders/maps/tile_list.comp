@@ -14,6 +14,7 @@ layout(set = 0, binding = 0, std430) readonly buffer mark_block { uint marks[]; 
 // The content that each tile was built from; 0: none.
 layout(set = 0, binding = 1, std430) buffer state_block { uint states[]; };
 layout(set = 0, binding = 2, std430) buffer tile_list_block { uint tile_list[]; };
+layout(set = 0, binding = 3, std430) readonly buffer condition_block { uint condition[]; };
 
 shared uint appended;
 
@@ -51,6 +52,7 @@ void write_record(int level, uint first) {
 
 void main() {
     uint local = gl_LocalInvocationIndex, all = 0u;
+    bool wanted = map.conditional == 0u || condition[0] != 0u;
     for (int level = 0; level < int(map.levels); ++level)
         all += tile_count(level);
     // Of the level's tiles: their numbers, whether they are needed, and their list.
@@ -65,7 +67,7 @@ void main() {
         barrier();
         for (uint i = local; i < count; i += THREADS) {
             ivec2 tile = ivec2(int(i) % columns, int(i) / columns);
-            bool needed = marks[map.first_mark + first + i] != 0u;
+            bool needed = wanted && marks[map.first_mark + first + i] != 0u;
             if (map.reduced != 0u && !needed && level + 1 < int(map.levels))
                 needed = serves_needed(tile, level, flags + end);
             tile_list[flags + first + i] = needed ? 1u : 0u;

@@ -10,6 +10,7 @@
 #include "shaders/interface/atlas.h"
 #include "shaders/interface/background.h"
 #include "shaders/interface/clustering_atlas.h"
+#include "shaders/interface/colours/mask.h"
 #include "shaders/interface/deformation.h"
 #include "shaders/interface/displacement/displacement.h"
 #include "shaders/interface/displacement/relief.h"
@@ -24,7 +25,6 @@
 #include "shaders/interface/light.h"
 #include "shaders/interface/lobe_grid.h"
 #include "shaders/interface/map_tiles.h"
-#include "shaders/interface/mask.h"
 #include "shaders/interface/material.h"
 #include "shaders/interface/mixture.h"
 #include "shaders/interface/moment_bins.h"
@@ -137,6 +137,7 @@ static known_member known[] = {
     MEMBER(tile_list_constants, content, 5),
     MEMBER(tile_list_constants, forgets, 6),
     MEMBER(tile_list_constants, reduced, 7),
+    MEMBER(tile_list_constants, conditional, 8),
     MEMBER(tile_marking_constants, count, 0),
     MEMBER(tile_marking_constants, wrap_u, 1),
     MEMBER(tile_marking_constants, wrap_v, 2),

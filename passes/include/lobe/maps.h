@@ -42,7 +42,8 @@ typedef struct lobe_maps_parameters {
     void *user; ///< passed to it
 } lobe_maps_parameters;
 
-/// Uploads the images. `host` is copied; NULL: silent. Errors: LOBE_ERROR_INVALID_ARGUMENT,
+/// Uploads the images, and waits for what the device finds in their texels, as far as that decides
+/// which maps there are. `host` is copied; NULL: silent. Errors: LOBE_ERROR_INVALID_ARGUMENT,
 /// LOBE_ERROR_MALFORMED, LOBE_ERROR_LIMIT, LOBE_ERROR_UNSUPPORTED,
 /// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, as for lobe_renderer_set_scene and lobe_renderer_render; the
 /// line names the material or image.

@@ -335,7 +335,8 @@ LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
 /// scene's. Compiling takes a driver up to seconds; frames then create none. The images of a target
 /// are not touched; their formats decide which pipelines are needed. What only changes of the scene
 /// need (other texels, other materials) is not included, except where images are given on the
-/// device.
+/// device. Where texels decide which pipelines there are, one submission asks the device about them
+/// and is waited for.
 ///
 /// To prepare something new while renderers of the device draw, see lobe/preparation.h, which calls
 /// this in a thread of lobe's.

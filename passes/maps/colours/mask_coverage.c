@@ -4,7 +4,7 @@
 
 #include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/mask.h"
+#include "shaders/interface/colours/mask.h"
 
 static struct mask_constants constants_of(const device_scene *scene, uint32_t index) {
     const device_material *material = &scene->materials[index];

@@ -13,6 +13,7 @@
 
 #ifdef FILTERED_MAPS_GLSL
 
+#include "interface/colours/colour_correlation.h"
 #include "lib/lobe/direction_lobe.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/microfacet/microfacet.glsl"
@@ -24,6 +25,9 @@
 layout(constant_id = SPECIALISE_COLOUR_NORMALS) const bool COLOUR_NORMALS = false;
 
 layout(LOBE_DESCRIPTOR(47)) uniform sampler2DArray colour_normal_map;
+layout(LOBE_DESCRIPTOR(48), std140) uniform correlation_block {
+    colour_correlation_found correlation;
+};
 
 // Facets of closed surfaces are masked one by one, of which this knows nothing.
 const bool COLOURS_TURN = COLOUR_NORMALS && DIFFUSE && !CLOSED;
@@ -34,6 +38,11 @@ struct colour_normals {
     vec3 mean;   // normal
 };
 colour_normals drawn_colours;
+
+// The device finds it where texels change; then there is no map to read.
+bool colours_turn() {
+    return COLOURS_TURN && correlation.follow != 0u;
+}
 
 // Of normals of this mean, in any direction across it.
 float normal_deviation(vec3 mean) {
@@ -46,7 +55,7 @@ float mean_cosine(vec3 mean, vec3 incoming) {
 }
 
 void fetch_colour_normals(surface_point surface) {
-    if (!COLOURS_TURN)
+    if (!colours_turn())
         return;
     map_area area = lobe_area(surface);
     vec3 factor = material.base_colour.rgb * (VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0));
@@ -69,7 +78,7 @@ void fetch_colour_normals(surface_point surface) {
 // max(<n, l>, 0), as under low light those have that take the cosine of the mean normal, it is not
 // darkened below what it should have.
 vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
-    if (!COLOURS_TURN || incoming.z <= 0.0)
+    if (!colours_turn() || incoming.z <= 0.0)
         return reflected;
     vec3 let_through = vec3(INVERSE_PI);
     if (MODEL == MODEL_MICROFACET)
@@ -97,7 +106,7 @@ vec3 irradiance_growth(surface_point surface, float size, vec3 axis, vec3 across
 // grows: normals spread less.
 vec3 add_colour_normals_of_environment(vec3 reflected, surface_point surface) {
     const float STEP = 0.25;
-    if (!COLOURS_TURN)
+    if (!colours_turn())
         return reflected;
     float size = max(length(drawn_colours.mean), 1e-4);
     vec3 axis = drawn_colours.mean / size;

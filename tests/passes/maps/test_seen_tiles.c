@@ -22,6 +22,8 @@ enum { EXTENT = 48 };
 typedef struct tile_case {
     uint32_t width, height; ///< texels that the map is made from
     bool reduced;
+    bool conditional;
+    uint32_t condition; ///< 0: no tile is needed
     struct tile_level levels[MAP_TILE_LEVELS];
     uint32_t level_count, tiles;
     uint32_t *marks, *needed;
@@ -77,12 +79,17 @@ static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content,
                                                   .layers = 3,
                                                   .content = content,
                                                   .forgets = forgets,
-                                                  .reduced = c->reduced};
+                                                  .reduced = c->reduced,
+                                                  .conditional = c->conditional};
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "mark_block",
                                    .resource = lobe_graph_upload(graph, "marks", c->marks,
                                                                  c->tiles * sizeof *c->marks)});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "condition_block",
+                                   .resource = lobe_graph_upload(graph, "condition", &c->condition,
+                                                                 sizeof c->condition)});
     const lobe_resource known = lobe_graph_buffer(graph, &states);
     assert_int_equal(lobe_graph_has_content(graph, known), !forgets);
     const lobe_binding state = {.name = "state_block", .resource = known};
@@ -135,6 +142,9 @@ static void tiles_that_marks_need_are_listed_once(void **state) {
             find_needed(&c);
             check_list(&c, list_of(f, &c, 5, true), c.needed);
             check_list(&c, list_of(f, &c, 5, false), none);
+            c.conditional = true;
+            check_list(&c, list_of(f, &c, 6, false), none);
+            c.condition = 1;
             check_list(&c, list_of(f, &c, 6, false), c.needed);
             free(none);
             free(c.marks);

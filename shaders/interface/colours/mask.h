@@ -1,7 +1,7 @@
 #ifndef INTERFACE_MASK_H
 #define INTERFACE_MASK_H
 
-#include "types.h"
+#include "../types.h"
 
 // Push constants of mask_coverage.
 struct mask_constants {
