@@ -128,12 +128,6 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
     return count;
 }
 
-bool passes_material_normal_read(const device_material *material, double x, double y,
-                                 double normal[3]) {
-    const lobe_grid grid = passes_lobe_grid(material);
-    return sample_normal(material, x / grid.width, y / grid.height, normal);
-}
-
 uint32_t passes_material_lobes_read(const device_material *material, double x, double y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]) {
     bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;

@@ -26,11 +26,6 @@ uint32_t passes_material_lobes_of(const lobe_material *material, const double no
 uint32_t passes_material_lobes_read(const device_material *material, double x, double y,
                                     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES]);
 
-/// The unit normal at such a point, in the tangent frame; false if the map has a format that the
-/// host does not read.
-bool passes_material_normal_read(const device_material *material, double x, double y,
-                                 double normal[3]);
-
 /// As rotate_from_pole in shaders/lib/lobe/half_vector_lobe.glsl, above the equator.
 void passes_material_lobe_rotate(const double normal[3], const double local[3], double result[3]);
 

@@ -36,7 +36,7 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
     const lobe_material *source = material->material;
     const bool microfacet = source->model == LOBE_MATERIAL_MICROFACET;
     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
-    material_colours colours = {{1, 1, 1}, 1, 0, {1, 1, 1}};
+    material_colours colours = {{1, 1, 1}, 0, {1, 1, 1}};
     const uint32_t count = passes_material_lobes_read(material, x, y, lobes);
     passes_material_colours_read(scene, material, (uint32_t)x, (uint32_t)y, &colours);
     for (uint32_t k = 0; k < count; k++) {

@@ -1,23 +1,9 @@
 #include "passes/upload/colours/material_colours.h"
 
-#include <lobe/colour.h>
-
-#include "passes/upload/material_maps.h"
+#include "passes/upload/colours/colour_texel.h"
 
 double passes_reflectance_of(double albedo, double metallic) {
     return 0.04 * (1 - metallic) + albedo * metallic;
-}
-
-/// One texel, linear. Only colour maps have the sRGB curve.
-static bool read_image(const lobe_image *image, uint32_t x, uint32_t y, float value[4]) {
-    if (!image->texels || image->format != LOBE_FORMAT_RGBA8_SRGB)
-        return passes_image_texel(image, x, y, value);
-    const unsigned char *texel =
-        (const unsigned char *)image->texels + 4 * ((size_t)y * image->width + x);
-    for (int i = 0; i < 3; i++)
-        value[i] = lobe_srgb_decode((float)texel[i] / 255);
-    value[3] = (float)texel[3] / 255;
-    return true;
 }
 
 static bool read_map(const lobe_scene *scene, const device_material *material, uint32_t map,
@@ -28,9 +14,7 @@ static bool read_map(const lobe_scene *scene, const device_material *material, u
     if (!use)
         return true;
     const lobe_grid grid = passes_lobe_grid(material);
-    const lobe_image *image = &scene->images[use->image].image;
-    return read_image(image, (uint32_t)((uint64_t)x * image->width / grid.width),
-                      (uint32_t)((uint64_t)y * image->height / grid.height), value);
+    return passes_colour_texel(&scene->images[use->image].image, &grid, x, y, value);
 }
 
 bool passes_material_colours_read(const lobe_scene *scene, const device_material *material,
@@ -45,7 +29,6 @@ bool passes_material_colours_read(const lobe_scene *scene, const device_material
     if (microfacet)
         colours->metallic =
             (double)material->metallic * (material->metallic_varies ? (double)width[2] : 1);
-    colours->alpha = (double)albedo[3];
     for (int i = 0; i < 3; i++) {
         colours->albedo[i] = (double)albedo[i];
         colours->specular[i] = microfacet

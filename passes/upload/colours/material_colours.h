@@ -7,7 +7,6 @@
 /// without the factor of the base colour, so that what is made of them does not depend on it.
 typedef struct material_colours {
     double albedo[3];
-    double alpha;       ///< of the base colour map
     double metallic;    ///< [0, 1]; 0 for half-vector lobes
     double specular[3]; ///< of microfacets F0; of half-vector lobes the factor of their colours
 } material_colours;
