@@ -10,13 +10,14 @@
 #define CHECK(call) assert_int_equal(call, VK_SUCCESS)
 
 struct ripple_constants {
-    float phase, waves;
+    float phase, waves, depth;
 };
 
 // ---------------------------------------------------------------------------------------------
 // The scene
 
-/// Metal, plastic and vMF lobes; the first materials have maps that the host gives.
+/// Metal, plastic and vMF lobes; the first materials have maps that the host gives, and two of
+/// them, which are no metal, colours.
 static lobe_material material_of(lobe_scene *scene, uint32_t number) {
     static const lobe_distribution distributions[] = {LOBE_DISTRIBUTION_GGX,
                                                       LOBE_DISTRIBUTION_BECKMANN};
@@ -25,6 +26,8 @@ static lobe_material material_of(lobe_scene *scene, uint32_t number) {
             ? half_vector_material(LOBE_DISTRIBUTION_VMF, 10 + (float)number)
             : microfacet_material(distributions[number % 2], 0.3 + 0.02 * number, number % 4 == 0);
     material.base_colour[0] = 0.2f + 0.03f * (float)number;
+    if (number >= 1 && number <= MOVING_COLOURS)
+        material.base_colour_map.image = (int32_t)number - 1;
     material.normal_map =
         scene_add_map(scene, random_normal_map(MOVING_MAP, MOVING_MAP, 0.4, 60 + number));
     return material;
@@ -42,12 +45,15 @@ static void place(float transform[16], uint32_t instance) {
 static lobe_scene *moving_scene(void) {
     lobe_scene *scene = scene_begin();
     float transform[16];
+    for (uint32_t i = 0; i < MOVING_COLOURS; i++)
+        (void)scene_add_map(scene, random_map(MOVING_MAP, MOVING_MAP, 0, 1, i));
     for (uint32_t i = 0; i < MOVING_MATERIALS; i++) {
         const lobe_material material = material_of(scene, i);
         place(transform, i);
         scene_add_square(scene, &material, 1, transform);
-        scene->images[i].on_device = i < MOVING_MAPS;
     }
+    for (uint32_t i = 0; i < MOVING_MAPS; i++)
+        scene->images[i].on_device = true;
     for (uint32_t i = MOVING_MATERIALS; i < MOVING_INSTANCES; i++) {
         place(transform, i);
         assert_int_equal(scenes_add_instance(scene, i % 3, i % MOVING_MATERIALS, transform, NULL),
@@ -166,7 +172,7 @@ static void create_maps(moving_host *m) {
         create_map(m, i);
 }
 
-/// The scene's first images are those of the materials whose maps move.
+/// The scene's first images are those that move: colours, then normals.
 static void give(void *user, lobe_graph *graph, const lobe_given_content *content) {
     const moving_host *m = user;
     for (size_t i = 0; i < MOVING_MAPS; i++)
@@ -260,7 +266,10 @@ static void record_ripples(moving_host *m, VkCommandBuffer commands, float phase
     CHECK(vkBeginCommandBuffer(commands, &begin));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, m->ripples);
     for (uint32_t i = 0; i < MOVING_MAPS; i++) {
-        const struct ripple_constants constants = {phase, 1 + (float)i};
+        const bool colours = i < MOVING_COLOURS;
+        const struct ripple_constants constants = {
+            phase, colours ? 2 + (float)i : 1 + (float)(i - MOVING_COLOURS),
+            colours ? m->colours : 1};
         host_barrier(commands, &m->maps[i], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, m->layout, 0, 1,
                                 &m->sets[i], 0, NULL);

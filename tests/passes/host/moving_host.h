@@ -7,12 +7,14 @@
 #include "tests/engine/support/host_device.h"
 
 /// A program as those that lobe is made for: it has its own Vulkan device, draws two frames at a
-/// time, and its compute shader writes the maps of some materials in every frame.
+/// time, and its compute shader writes the maps of some materials in every frame: their normals,
+/// and colours that may go with these.
 
 enum {
     MOVING_INSTANCES = 1000,
     MOVING_MATERIALS = 24,
-    MOVING_MAPS = 6, ///< that change; the first materials have them
+    MOVING_COLOURS = 2,               ///< maps that change, of the second material and the third
+    MOVING_MAPS = MOVING_COLOURS + 6, ///< with normals; the first materials have them
     MOVING_FLIGHT = 2,
     MOVING_MAP = 16, ///< texels wide and high
 };
@@ -36,6 +38,7 @@ typedef struct moving_host {
     VkSemaphore timeline;
     uint64_t value, done[MOVING_FLIGHT]; ///< of the timeline: so far; when a slot is free again
     uint32_t frame, slot;                ///< frames so far, and the last one's slot
+    float colours;                       ///< how much they go with normals, [0, 1]
 } moving_host;
 
 /// `validated`: under the validation layer, whose memory grows with each call.
@@ -45,7 +48,8 @@ void moving_host_close(moving_host *m);
 
 /// Of another size, after what is in flight. Also before the first frame.
 void moving_host_resize(moving_host *m, uint32_t width, uint32_t height);
-/// Writes the maps and draws a frame, without waiting for it. The maps depend on `phase` alone.
+/// Writes the maps and draws a frame, without waiting for it. The maps depend on `phase` and
+/// `colours` alone.
 void moving_host_draw(moving_host *m, float phase);
 /// Waits for all frames.
 void moving_host_finish(moving_host *m);

@@ -1,6 +1,7 @@
 #version 460
 
-// A host's simulation: normals of ripples that run over a map, which is tilted all around.
+// A host's simulation: normals of ripples that run over a map, which is tilted all around. Also
+// colours that go with them.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,6 +10,7 @@ layout(set = 0, binding = 0, rgba8) uniform writeonly image2D normals;
 layout(push_constant) uniform ripple_block {
     float phase;
     float waves;
+    float depth; // 0: flat
 } ripples;
 
 void main() {
@@ -19,5 +21,6 @@ void main() {
     vec2 slope = 0.4 * vec2(cos(ripples.phase), sin(ripples.phase)) +
                  0.5 * vec2(cos(ripples.waves * place.x + ripples.phase),
                             cos(2.0 * place.x + ripples.waves * place.y - ripples.phase));
-    imageStore(normals, texel, vec4(0.5 + 0.5 * normalize(vec3(-slope, 1.0)), 1.0));
+    vec3 normal = normalize(vec3(-ripples.depth * slope, 1.0));
+    imageStore(normals, texel, vec4(0.5 + 0.5 * normal, 1.0));
 }

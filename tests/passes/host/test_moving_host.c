@@ -1,4 +1,5 @@
-// A host whose shader changes the maps of six materials in every frame, with 1,000 instances and
+// A host whose shader changes the maps of six materials in every frame, two of them with colours
+// that begin and cease to go with normals, with 1,000 instances and
 // two frames in flight: lobe submits once a frame, waits for nothing, and its memory stays.
 // `test_host_moving_host FRAMES` draws that many frames and prints the memory that they take
 // (`ninja churn`: 10 000).
@@ -6,6 +7,7 @@
 #include "tests/passes/host/moving_host.h"
 
 #include <malloc.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +29,10 @@ static int waits(void) {
 }
 
 static void draw(moving_host *m, uint32_t count) {
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        m->colours = i % 3 > 0;
         moving_host_draw(m, phase_of(i));
+    }
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -47,8 +51,9 @@ static void frames_are_submitted_once_and_waited_for_never(void **state) {
     assert_int_equal(vulkan_calls("vkQueueSubmit2") - submitted, 20);
     assert_int_equal(waits() - waited, 0);
     assert_int_equal(faults.pipelines, 0);
-    // Views of the host's images, which it may replace at any time.
-    assert_int_equal(faults.made, 20 * (MOVING_MAPS + 1));
+    // Views of the host's images, which it may replace at any time: of colours two, as passes that
+    // filter images read layers.
+    assert_int_equal(faults.made, 20 * (MOVING_MAPS + MOVING_COLOURS + 1));
     assert_int_equal(faults.alive, alive);
     for (int i = 0; i < 2; i++) {
         moving_host_resize(&m, WIDTH + 20 - 30 * (uint32_t)i, HEIGHT + 5);
@@ -75,20 +80,25 @@ static double relative_difference(const float *a, const float *b, size_t count) 
 
 /// Each picture shows the maps of its own frame, whatever was drawn before.
 static void pictures_show_the_maps_of_their_frame(void **state) {
-    static const char *const filters[] = {"moments", "leadr"};
+    static const struct {
+        const char *filter;
+        float colours;
+    } ways[] = {{"moments", 0}, {"leadr", 1}};
     const size_t count = (size_t)WIDTH * HEIGHT * 4;
     (void)state;
-    for (size_t n = 0; n < 2; n++) {
+    for (size_t n = 0; n < sizeof ways / sizeof *ways; n++) {
         moving_host moving, fresh;
-        moving_host_open(&moving, filters[n], false);
+        moving_host_open(&moving, ways[n].filter, false);
         moving_host_resize(&moving, WIDTH, HEIGHT);
         draw(&moving, 5);
         float *before = moving_host_picture(&moving);
+        moving.colours = ways[n].colours;
         moving_host_draw(&moving, 2.5f);
         float *picture = moving_host_picture(&moving);
         moving_host_close(&moving);
-        moving_host_open(&fresh, filters[n], false);
+        moving_host_open(&fresh, ways[n].filter, false);
         moving_host_resize(&fresh, WIDTH, HEIGHT);
+        fresh.colours = ways[n].colours;
         moving_host_draw(&fresh, 2.5f);
         float *expected = moving_host_picture(&fresh);
         moving_host_close(&fresh);
@@ -98,6 +108,50 @@ static void pictures_show_the_maps_of_their_frame(void **state) {
         free(picture);
         free(expected);
     }
+}
+
+enum { STEPS = 32 };
+
+/// Draws slow ripples while colours begin to go with them, with a filter that has no bins: how much
+/// each picture differs from the one before. Returns a digest of all.
+static uint64_t draw_slowly(double differences[STEPS]) {
+    const size_t count = (size_t)WIDTH * HEIGHT * 4;
+    uint64_t digest = 0;
+    moving_host m;
+    moving_host_open(&m, "toksvig", false);
+    moving_host_resize(&m, WIDTH, HEIGHT);
+    float *before = NULL;
+    for (int i = 0; i <= STEPS; i++) {
+        m.colours = (float)i / STEPS;
+        moving_host_draw(&m, 1 + 0.01f * (float)i);
+        float *picture = moving_host_picture(&m);
+        for (size_t k = 0; k < count; k++) {
+            uint32_t bits;
+            memcpy(&bits, &picture[k], sizeof bits);
+            digest = (digest ^ bits) * 1099511628211U; // FNV-1a
+        }
+        if (before)
+            differences[i - 1] = sqrt(relative_difference(picture, before, count));
+        free(before);
+        before = picture;
+    }
+    free(before);
+    moving_host_close(&m);
+    return digest;
+}
+
+/// Neither where the map of colours and normals begins to be made, nor elsewhere.
+static void slow_changes_do_not_pop(void **state) {
+    double differences[STEPS], again[STEPS], mean = 0;
+    (void)state;
+    const uint64_t digest = draw_slowly(differences);
+    for (int i = 0; i < STEPS; i++)
+        mean += differences[i] / STEPS;
+    assert_true(mean > 1e-4);
+    for (int i = 0; i < STEPS; i++)
+        if (!(differences[i] < 2 * mean))
+            fail_msg("picture %d differs by %g, others by %g", i + 1, differences[i], mean);
+    assert_true(draw_slowly(again) == digest);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -153,6 +207,7 @@ int main(int count, char **arguments) {
         cmocka_unit_test(memory_stays),
         cmocka_unit_test(frames_are_submitted_once_and_waited_for_never),
         cmocka_unit_test(pictures_show_the_maps_of_their_frame),
+        cmocka_unit_test(slow_changes_do_not_pop),
     };
     const struct CMUnitTest many[] = {cmocka_unit_test(memory_stays)};
     if (count > 1) {
