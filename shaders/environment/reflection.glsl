@@ -149,7 +149,9 @@ vec3 reflect_base_material(surface_point surface, base_material base, vec3 mean_
     if (CLOSED)
         return reflect_closed_material(surface, base);
     vec3 sum = reflect_base_specular(surface, base);
-    if (DIFFUSE)
+    // Facets that face away are black, as under lights.
+    bool seen = MODEL != MODEL_MICROFACET || dot(base.normal, surface.outgoing) > 0.0;
+    if (DIFFUSE && seen)
         sum += reflect_lambert(surface, base, mean_normal);
     return sum;
 }
