@@ -24,7 +24,8 @@ struct appearance {
     map_area area;
     float mass_scale; // of the bins
     float base_share; // [0, 1]: how much of the appearance is level 0
-    // Of the texels' normals those that face the viewer, and their share; of half-vector lobes all.
+    // Of the texels' normals those that face the viewer, and their share, each by how much of it is
+    // Lambert's; of half-vector lobes all.
     normal_spread facing;
     float facing_share;
     light_sum first, second, third, fourth;
@@ -36,16 +37,20 @@ struct appearance {
     float level;
 };
 
-// Sums over all bins of the footprint: mass, direction and places of the lobes.
+// Sums over all bins of the footprint.
 struct bin_means {
     float mass;
     vec3 axis;
+    // Of microfacets, by how much of a bin is Lambert's: of all, and of those that face the viewer.
+    float diffuse;
+    float facing;
+    vec3 normal;
     vec2 place;
     vec3 second_moments;
 };
 
 bin_means no_bins() {
-    return bin_means(0.0, vec3(0.0), vec2(0.0), vec3(0.0));
+    return bin_means(0.0, vec3(0.0), 0.0, 0.0, vec3(0.0), vec2(0.0), vec3(0.0));
 }
 
 vec3 bin_half_vector(surface_point surface, vec3 incoming) {
@@ -53,7 +58,7 @@ vec3 bin_half_vector(surface_point surface, vec3 incoming) {
 }
 
 light_sum no_light() {
-    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
 }
 
 // The mean normal of the texels, from the mean axis of their lobes: lobes turn with the normals,
@@ -70,27 +75,60 @@ vec3 normal_from_axis(vec3 axis) {
     return vec3(planar, (axis.z + dot(planar, local.xy)) / height);
 }
 
-void add_to_means(inout bin_means means, plane_bin bin) {
+void add_facing(inout bin_means means, normal_spread facing, float weight) {
+    means.facing += weight;
+    means.normal += weight * facing.mean;
+    means.place += weight * facing.place;
+    means.second_moments += weight * (facing.covariance + second_moments_of(facing.place));
+}
+
+void add_to_means(inout bin_means means, plane_bin bin, vec3 outgoing) {
     means.mass += bin.mass;
-    means.place += bin.mass * bin.mean;
-    means.second_moments += bin.mass * (bin.places + second_moments_of(bin.mean));
     // The mean of 1 - |q|^2 / 2 is exactly the mean of the directions' third coordinate.
-    means.axis += bin.mass * vec3(bin.axis.xy, bin.axis.z - bin.spread);
+    vec3 axis = vec3(bin.axis.xy, bin.axis.z - bin.spread);
+    means.axis += bin.mass * axis;
+    if (MODEL == MODEL_MICROFACET && DIFFUSE && !CLOSED) {
+        float diffuse = part_of_bin(bin) * (BIN_COLOUR ? bin.dielectric : 1.0), share;
+        normal_spread facing =
+            facing_normals(normal_spread(axis, bin.mean, bin.places), outgoing, share);
+        means.diffuse += diffuse;
+        add_facing(means, facing, diffuse * share);
+    }
+}
+
+// The normals whose Lambert part is seen. Level 0 is one more of them.
+void take_facing(inout appearance fetched, surface_point surface, bin_means means) {
+    float scale = 1.0 / max(means.diffuse, 1e-20);
+    if (may_see_level_0(lobe_map())) {
+        vec3 normal = fetched.base.normal;
+        float share = dot(normal, surface.outgoing) > 0.0 ? fetched.base_share : 0.0;
+        scale *= 1.0 - fetched.base_share;
+        means.facing *= scale;
+        means.normal *= scale;
+        means.place *= scale;
+        means.second_moments *= scale;
+        scale = 1.0;
+        add_facing(means, normal_spread(normal, plane_from_direction(normal), vec3(0.0)), share);
+    }
+    fetched.facing_share = scale * means.facing;
+    float per_facing = 1.0 / max(means.facing, 1e-20);
+    fetched.facing.mean = per_facing * means.normal;
+    fetched.facing.place = per_facing * means.place;
+    fetched.facing.covariance =
+        covariance_of(fetched.facing.place, per_facing * means.second_moments);
 }
 
 // Sets the footprint's normals from the sums over the bins.
 void take_means(inout appearance fetched, surface_point surface, bin_means means) {
-    float scale = 1.0 / max(means.mass, 1e-6);
-    normal_spread normals = normal_spread_of(means.place * scale, means.second_moments * scale);
-    normals.mean = normal_from_axis(means.axis * scale);
+    vec3 normal = normal_from_axis(means.axis / max(means.mass, 1e-6));
     if (may_see_level_0(lobe_map()))
-        normals = mixed_normals(normals, fetched.base.normal, fetched.base_share);
-    fetched.facing = normals;
-    fetched.facing_share = 1.0;
-    if (MODEL == MODEL_MICROFACET && DIFFUSE)
-        fetched.facing = facing_normals(normals, surface.outgoing, fetched.facing_share);
-    fetched.normal = mean_direction(normals.mean, vec3(0.0, 0.0, 1.0));
+        normal = mix(normal, fetched.base.normal, fetched.base_share);
+    fetched.normal = mean_direction(normal, vec3(0.0, 0.0, 1.0));
     fetched.filtered.normal = fetched.normal;
+    fetched.facing = normal_spread(normal, vec2(0.0), vec3(0.0));
+    fetched.facing_share = 1.0;
+    if (MODEL == MODEL_MICROFACET && DIFFUSE && !CLOSED)
+        take_facing(fetched, surface, means);
 }
 
 // Of closed surfaces, what the bin's facets exchange, and their Lambert part.
@@ -114,6 +152,14 @@ void add_exchange(inout appearance fetched, surface_point surface, plane_bin bin
     }
 }
 
+void add_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place, surface_point surface,
+             vec3 incoming) {
+    if (MODEL == MODEL_MICROFACET && !CLOSED)
+        add_masked_bin(sum, bin, halfway, place, surface.outgoing, incoming);
+    else
+        add_bin_to_light(sum, bin, halfway, place);
+}
+
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!FILTERED_LOBES)
         return;
@@ -131,15 +177,15 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
         // A footprint's lobes together have a mass of at least one.
         if (bin.mass <= filter_knobs.least_share)
             continue;
-        add_to_means(means, bin);
+        add_to_means(means, bin, surface.outgoing);
         fetched.lobe_count += 1.0;
-        add_bin_to_light(fetched.first, bin, halfway[0], places[0]);
+        add_bin(fetched.first, bin, halfway[0], places[0], surface, incoming[0]);
         if (LIGHTS_AT_ONCE > 1u)
-            add_bin_to_light(fetched.second, bin, halfway[1], places[1]);
+            add_bin(fetched.second, bin, halfway[1], places[1], surface, incoming[1]);
         if (LIGHTS_AT_ONCE > 2u)
-            add_bin_to_light(fetched.third, bin, halfway[2], places[2]);
+            add_bin(fetched.third, bin, halfway[2], places[2], surface, incoming[2]);
         if (LIGHTS_AT_ONCE > 3u)
-            add_bin_to_light(fetched.fourth, bin, halfway[3], places[3]);
+            add_bin(fetched.fourth, bin, halfway[3], places[3], surface, incoming[3]);
         if (CLOSED)
             add_exchange(fetched, surface, bin, incoming);
     }
@@ -212,14 +258,6 @@ vec3 evaluate_bin_diffuse(appearance fetched, vec3 fresnel, vec3 halfway, vec3 i
                               let_through, cosine);
 }
 
-// The texels' normals that reflect about the half vector.
-normal_spread reflecting_normals(appearance fetched, light_sum sum, float scale) {
-    normal_spread normals = normal_spread_of(scale * sum.place, scale * sum.second_moments);
-    return may_see_level_0(lobe_map())
-               ? mixed_normals(normals, fetched.base.normal, fetched.base_share)
-               : normals;
-}
-
 // Masking of the microfacets and of the facets of a closed surface, over 4 <n, omega_o>: mean of
 // the texels that reflect. All of their spread counts: at grazing angles both fall off on either
 // side of the surface's own normal.
@@ -231,34 +269,42 @@ float mean_visibility(normal_spread normals, float width, vec3 outgoing, vec3 in
     return sum / float(SLOPE_NODES);
 }
 
-// Without Lambert's part.
-vec3 evaluate_bin_specular(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
-                           vec3 incoming, out vec3 fresnel) {
+// Of a closed surface's bins, without what they exchange.
+vec3 evaluate_closed_specular(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                              vec3 incoming) {
     float scale = 1.0 / max(sum.distribution, 1e-20);
     float sharpness = max(sum.sharpness * scale, 0.4);
     float width = parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
     vec3 f0 = BIN_COLOUR ? sum.colour * scale : fetched.filtered.specular;
-    float distribution = (1.0 - fetched.base_share) * sum.distribution;
-    if (may_see_level_0(lobe_map())) {
-        if (BIN_COLOUR)
-            f0 = mix(f0, fetched.base.specular, fetched.base_share);
-        float base_width = widened_width(fetched.base);
-        width = mix(width, base_width, fetched.base_share);
-        distribution +=
-            fetched.base_share *
-            evaluate_normal_distribution(fetched.base.normal, halfway, base_width);
-    }
-    facing_cosines cosines =
-        facing_cosines_of(reflecting_normals(fetched, sum, scale), incoming, outgoing);
-    float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, width);
+    normal_spread normals = normal_spread_of(scale * sum.place, scale * sum.second_moments);
+    float outgoing_cosine = facing_cosines_of(normals, incoming, outgoing).outgoing;
+    return scattering_scale(f0, outgoing_cosine, width) *
+           fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway)) *
+           (sum.distribution * mean_visibility(normals, width, outgoing, incoming));
+}
+
+// What level 0 reflects, without Lambert's part.
+vec3 evaluate_level_0_specular(appearance fetched, vec3 outgoing, vec3 incoming) {
+    base_material base = fetched.base;
+    base.diffuse = vec3(0.0);
+    if (!BIN_COLOUR)
+        base.specular = fetched.filtered.specular;
+    return evaluate_base_material(base, base.normal, outgoing, incoming);
+}
+
+// Without Lambert's part.
+vec3 evaluate_bin_specular(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
+                           vec3 incoming, out vec3 fresnel) {
+    float scale = 1.0 / max(sum.reflected, 1e-20);
+    float sharpness = max(sum.sharpness * scale, 0.4);
+    float width = parameter_of_plane_variance(DISTRIBUTION, 1.0 / (sharpness * sharpness));
+    vec3 f0 = BIN_COLOUR ? sum.colour * scale : fetched.filtered.specular;
     fresnel = fresnel_schlick(f0, vec3(1.0), dot(incoming, halfway));
-    vec3 scale_of_bins = scattering_scale(f0, cosines.outgoing, width);
-    if (CLOSED)
-        return scale_of_bins * fresnel *
-               (distribution * mean_visibility(reflecting_normals(fetched, sum, scale), width,
-                                               outgoing, incoming));
-    return microfacet_specular(fresnel, cosines.share * distribution, visible, cosines.outgoing) *
-           scale_of_bins;
+    vec3 value = scattering_scale(f0, sum.outgoing * scale, width) * fresnel * sum.reflected;
+    if (may_see_level_0(lobe_map()))
+        value = mix(value, evaluate_level_0_specular(fetched, outgoing, incoming),
+                    fetched.base_share);
+    return value;
 }
 
 vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
@@ -270,10 +316,7 @@ vec3 evaluate_bin_microfacets(appearance fetched, light_sum sum, vec3 halfway, v
 
 vec3 evaluate_closed_bins(appearance fetched, light_sum sum, vec3 halfway, vec3 outgoing,
                           vec3 incoming) {
-    appearance bins = fetched;
-    bins.base_share = 0.0;
-    vec3 fresnel;
-    vec3 value = evaluate_bin_specular(bins, sum, halfway, outgoing, incoming, fresnel) +
+    vec3 value = evaluate_closed_specular(fetched, sum, halfway, outgoing, incoming) +
                  sum.exchanged_and_diffuse;
     if (may_see_level_0(lobe_map()))
         value = mix(value, evaluate_base_material(fetched.base, outgoing, incoming),
@@ -328,7 +371,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
         plane_bin bin = read_bin(surface, fetched.area, fetched.mass_scale, i);
         if (bin.mass <= filter_knobs.least_share)
             continue;
-        add_to_means(means, bin);
+        add_to_means(means, bin, surface.outgoing);
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
         vec3 reflected = CLOSED ? reflect_closed_bin(fetched, surface, bin, f0)
@@ -362,8 +405,11 @@ vec3 reflect_environment(inout appearance fetched, surface_point surface) {
             base.specular = frame.specular;
         sum += fetched.base_share * reflect_base_specular(surface, base);
     }
-    if (DIFFUSE)
+    if (DIFFUSE) {
+        if (MODEL == MODEL_MICROFACET)
+            frame.normal = mean_direction(fetched.facing.mean, frame.normal);
         sum += fetched.facing_share * reflect_lambert(surface, frame, fetched.facing.mean);
+    }
     return sum;
 }
 #endif

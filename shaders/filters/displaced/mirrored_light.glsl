@@ -8,7 +8,7 @@
 #include "shading/base_material.glsl"
 
 light_sum no_light() {
-    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+    return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
 }
 
 void add_light(inout light_sum sum, light_sum other, float factor) {

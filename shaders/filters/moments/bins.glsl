@@ -60,9 +60,12 @@ plane_bin read_bin(surface_point surface, map_area area, float mass_scale, uint 
     make_terms(bin, covariance, base, varies);
     bin.spread = 0.5 * (covariance.x + covariance.y);
     keep_shape(bin, varies);
-    if (BIN_COLOUR)
-        bin.colour = colour_of_bin(surface, filtered_layer(moment_map, area, layers * index + 2u) *
-                                                vec4(vec3(scale * colour_unit()), scale));
+    if (BIN_COLOUR) {
+        vec4 colour = vec4(vec3(scale * colour_unit()), scale) *
+                      filtered_layer(moment_map, area, layers * index + 2u);
+        bin.colour = colour_of_bin(surface, colour);
+        bin.dielectric = colour.a;
+    }
     return bin;
 }
 

@@ -20,9 +20,12 @@ struct light_sum {
     // Of the texels that reflect, weighted by their part of the distribution:
     vec2 place;          // of the normals
     vec3 second_moments; // (xx, yy, xy) of their places
-    float sharpness;     // of their base lobes
-    vec3 colour;
+    float sharpness;     // of their base lobes; where `reflected` is set, weighted by that,
+    vec3 colour;         // as colours are
     vec3 exchanged_and_diffuse; // of closed surfaces
+    // Of surfaces that are not closed, with their masking, over 4 <n, omega_o>:
+    float reflected;
+    float outgoing; // the texels' <n, omega_o>, weighted by that
 };
 
 const int MAXIMUM_TERMS = 4;
@@ -43,6 +46,7 @@ struct plane_bin {
     vec2 own_parameter;  // of base lobes as broad as the bin: of the sharper and the broader half
     vec2 own_share;
     vec3 colour;
+    float dielectric; // of bins with colours: the part that is not metal
 };
 
 uint distribution_kind() {
@@ -163,16 +167,22 @@ float evaluate_own_shapes(plane_bin bin, vec3 halfway) {
     return value;
 }
 
-void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place) {
+// What a bin has of half vectors, and the normals of its texels that reflect about one of them.
+float evaluate_bin(plane_bin bin, vec3 halfway, vec2 place, out reflecting_places reflecting) {
     vec2 d = place - bin.mean;
     vec3 inverse;
     float value = evaluate_terms(bin, d, inverse);
-    reflecting_places reflecting = reflecting_places_of(bin, inverse, d);
+    reflecting = reflecting_places_of(bin, inverse, d);
     if (distribution_kind() == DISTRIBUTION_GGX)
         value *= ggx_beyond_plane(
             bin.variance, difference_squared(direction_from_plane(reflecting.mean), halfway) +
                               reflecting.covariance.x + reflecting.covariance.y);
-    value = mix(value, evaluate_own_shapes(bin, halfway), bin.own);
+    return mix(value, evaluate_own_shapes(bin, halfway), bin.own);
+}
+
+void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place) {
+    reflecting_places reflecting;
+    float value = evaluate_bin(bin, halfway, place, reflecting);
     sum.distribution += value;
     sum.sharpness += value * bin.sharpness;
     if (MODEL == MODEL_MICROFACET) {
@@ -182,6 +192,27 @@ void add_bin_to_light(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 pla
     }
     if (BIN_COLOUR)
         sum.colour += value * bin.colour;
+}
+
+// Of surfaces that are not closed. Each bin is masked by itself: where half of the facets face
+// away, as on steep ridges seen from the side, no common Gaussian tells which.
+void add_masked_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place, vec3 outgoing,
+                    vec3 incoming) {
+    reflecting_places reflecting;
+    float value = evaluate_bin(bin, halfway, place, reflecting);
+    facing_cosines cosines = facing_cosines_of(
+        normal_spread_of(reflecting.mean,
+                         reflecting.covariance + second_moments_of(reflecting.mean)),
+        incoming, outgoing);
+    float width = parameter_of_plane_variance(DISTRIBUTION, 1.0 / (bin.sharpness * bin.sharpness));
+    float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, width);
+    float reflected =
+        microfacet_specular(vec3(1.0), cosines.share * value, visible, cosines.outgoing).x;
+    sum.reflected += reflected;
+    sum.outgoing += reflected * cosines.outgoing;
+    sum.sharpness += reflected * bin.sharpness;
+    if (BIN_COLOUR)
+        sum.colour += reflected * bin.colour;
 }
 
 // A bin's share of the appearance. For microfacets as seen along the normal, where a lobe's mass is

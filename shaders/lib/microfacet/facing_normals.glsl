@@ -26,14 +26,6 @@ normal_spread normal_spread_of(vec2 place, vec3 second_moments) {
     return normals;
 }
 
-// `share` of the texels have the same normal.
-normal_spread mixed_normals(normal_spread normals, vec3 normal, float share) {
-    normals.mean = mix(normals.mean, normal, share);
-    normals.place = mix(normals.place, plane_from_direction(normal), share);
-    normals.covariance *= 1.0 - share;
-    return normals;
-}
-
 // How <n, direction> changes with the place of n (see direction_step).
 vec2 cosine_gradient(vec2 place, vec3 direction) {
     float height = sqrt(max(1.0 - 0.25 * dot(place, place), 0.05));

@@ -102,8 +102,10 @@ typedef struct bin {
     double mass, mean[2], covariance[3]; ///< of the lobes' places
     double sharpness, variance, varies;  ///< of the base lobes: mean, median; of its logarithm
     bool widths;                         ///< base lobes differ in width
-    double base[3];                      ///< their covariance at the mean place
+    double mean_variance;
+    double base[3]; ///< their covariance at the mean place
     double colour[3];
+    double dielectric; ///< the part that is not metal
 } bin;
 
 /// GGX: deviations vary log-normally, exp(n m + n^2 varies / 2) is the mean of their power n.
@@ -135,7 +137,7 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
                     const double *moments, uint32_t i) {
     const double *place = moments + 4 * i * (partition->colour ? 3 : 2), *spread = place + 4;
     const struct moment_bin *range = &partition->constants.bins[i];
-    bin result = {.mass = place[0] * partition->mass_scale};
+    bin result = {.mass = place[0] * partition->mass_scale, .dielectric = 1};
     double square = (double)range->range[2] * (double)range->range[2];
     for (int j = 0; j < 3; j++) {
         int a = j == 1, b = j != 0;
@@ -144,8 +146,9 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
         if (!partition->colour)
             continue;
         result.colour[j] = place[8 + j] / place[0] * partition->colour_scale;
+        result.dielectric = place[11] / place[0];
         if (material->model == LOBE_MATERIAL_MICROFACET)
-            result.colour[j] += 0.04 * place[11] / place[0];
+            result.colour[j] += 0.04 * result.dielectric;
     }
     for (int j = 0; j < 2; j++)
         result.mean[j] =
@@ -154,7 +157,8 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
     result.widths = material->metallic_roughness_map.image >= 0 || material->width_map.image >= 0;
     for (uint32_t j = 1; j < material->lobe_count; j++)
         result.widths |= material->lobes[j].width != material->lobes[0].width;
-    find_widths(&result, spread[3] / place[0] * (double)range->shape[3], material->distribution);
+    result.mean_variance = spread[3] / place[0] * (double)range->shape[3];
+    find_widths(&result, result.mean_variance, material->distribution);
     reference_plane_distortion(result.mean, result.base);
     for (int j = 0; j < 3; j++)
         result.base[j] *= result.variance;
@@ -259,22 +263,58 @@ static double with_own_shape(const lobe_material *material, const bin *b, double
 
 /// The sum over all bins.
 typedef struct bin_total {
-    double distribution;
-    double place[2], second[3], sharpness, colour[3]; ///< weighted by what each bin reflects
-    double mass, axis[3], places[2], seconds[3];      ///< of all
+    double reflected, colour[3]; ///< colours are weighted by what each bin reflects
+    double mass, axis[3];
+    /// Of microfacets, by how much of a bin is Lambert's: of all, and of those that face the
+    /// viewer.
+    double diffuse, facing, normal[3], places[2], seconds[3];
 } bin_total;
 
-/// Adds a place, of covariance (xx, yy, xy), and its second moments.
-static void add_place(double weight, const double place[2], const double covariance[3],
-                      double places[2], double seconds[3]) {
-    for (int i = 0; i < 2; i++)
-        places[i] += weight * place[i];
+/// Of microfacets, those that face both directions, masked by each other; over 4 <n, omega_o>.
+static double masked(const lobe_material *material, const bin *b, double value,
+                     reference_normals normals, const double outgoing[3],
+                     const double incoming[3]) {
+    double share = reference_face(&normals, outgoing);
+    share *= reference_face(&normals, incoming);
+    double in = fmax(reference_dot(normals.mean, incoming), 0);
+    double out = fmax(reference_dot(normals.mean, outgoing), 0);
+    double width = reference_parameter_of_plane_variance(material->distribution,
+                                                         1 / (b->sharpness * b->sharpness));
+    double shadowing = reference_masking_shadowing(material->distribution, in, out, width);
+    return reference_microfacet_specular(1, share * value, shadowing, out);
+}
+
+static reference_normals normals_at(const double place[2], const double covariance[3]) {
+    double seconds[3];
     for (int i = 0; i < 3; i++)
-        seconds[i] += weight * (covariance[i] + place[i == 1] * place[i != 0]);
+        seconds[i] = covariance[i] + place[i == 1] * place[i != 0];
+    return reference_normals_of(place, seconds, 1);
+}
+
+/// Lambert's part is as large as the texels, not as their lobes' mass.
+static void add_facing(const lobe_material *material, const bin *b, const double axis[3],
+                       const double outgoing[3], bin_total *total) {
+    const lobe_distribution distribution = material->distribution;
+    double parameter = reference_parameter_of_plane_variance(
+        distribution, b->widths ? b->mean_variance : b->variance);
+    double weight =
+        b->dielectric * b->mass / reference_plane_mass(material->model, distribution, parameter);
+    reference_normals normals = normals_at(b->mean, b->covariance);
+    memcpy(normals.mean, axis, sizeof normals.mean);
+    total->diffuse += weight;
+    weight *= reference_face(&normals, outgoing);
+    total->facing += weight;
+    for (int i = 0; i < 3; i++) {
+        total->normal[i] += weight * normals.mean[i];
+        total->seconds[i] +=
+            weight * (normals.covariance[i] + normals.place[i == 1] * normals.place[i != 0]);
+    }
+    for (int i = 0; i < 2; i++)
+        total->places[i] += weight * normals.place[i];
 }
 
 static void add_bin(const lobe_material *material, const bin *b, const double half_vector[3],
-                    bin_total *total) {
+                    const double outgoing[3], const double incoming[3], bin_total *total) {
     double place[2], axis[3], reflecting[2], covariance[3];
     reference_plane_from_direction(half_vector, place);
     const double d[2] = {place[0] - b->mean[0], place[1] - b->mean[1]};
@@ -285,11 +325,12 @@ static void add_bin(const lobe_material *material, const bin *b, const double ha
     double value = with_own_shape(material, b, sum.value, half_vector);
     reference_direction_from_plane(b->mean, axis);
     axis[2] -= half_trace(b);
-    total->distribution += value;
-    total->sharpness += value * b->sharpness;
+    if (material->model == LOBE_MATERIAL_MICROFACET) {
+        value = masked(material, b, value, normals_at(reflecting, covariance), outgoing, incoming);
+        add_facing(material, b, axis, outgoing, total);
+    }
+    total->reflected += value;
     total->mass += b->mass;
-    add_place(value, reflecting, covariance, total->place, total->second);
-    add_place(b->mass, b->mean, b->covariance, total->places, total->seconds);
     for (int i = 0; i < 3; i++) {
         total->colour[i] += value * b->colour[i];
         total->axis[i] += b->mass * axis[i];
@@ -332,41 +373,28 @@ static void constant_colours(const lobe_material *material, double specular[3], 
 static void shade_lobes(const bin_total *total, const double specular[3], const double diffuse[3],
                         const double mean[3], const double incoming[3], double radiance[3]) {
     for (int i = 0; i < 3; i++)
-        radiance[i] = total->distribution * specular[i] +
+        radiance[i] = total->reflected * specular[i] +
                       reference_microfacet_diffuse(diffuse[i], 0, reference_dot(mean, incoming));
 }
 
-static double masked_distribution(const lobe_material *material, const bin_total *total,
-                                  const double outgoing[3], const double incoming[3]) {
-    reference_normals normals =
-        reference_normals_of(total->place, total->second, total->distribution);
-    double share = reference_face(&normals, outgoing);
-    share *= reference_face(&normals, incoming);
-    double in = fmax(reference_dot(normals.mean, incoming), 0);
-    double out = fmax(reference_dot(normals.mean, outgoing), 0);
-    double sharpness = total->sharpness / total->distribution;
-    double width =
-        reference_parameter_of_plane_variance(material->distribution, 1 / (sharpness * sharpness));
-    double shadowing = reference_masking_shadowing(material->distribution, in, out, width);
-    return reference_microfacet_specular(1, share * total->distribution, shadowing, out);
-}
-
 /// `own_colours`: of the bins; then 1 - F0 is part of the diffuse colour.
-static void shade_microfacets(const lobe_material *material, const bin_total *total,
-                              bool own_colours, const double specular[3], const double diffuse[3],
-                              const double mean[3], const double half_vector[3],
-                              const double outgoing[3], const double incoming[3],
-                              double radiance[3]) {
-    double reflected = masked_distribution(material, total, outgoing, incoming);
-    reference_normals normals = reference_normals_of(total->places, total->seconds, total->mass);
-    memcpy(normals.mean, mean, sizeof normals.mean);
-    double seen = reference_face(&normals, outgoing);
-    double lit = seen * reference_mean_facing_cosine(&normals, incoming);
+static void shade_microfacets(const bin_total *total, bool own_colours, const double specular[3],
+                              const double diffuse[3], const double half_vector[3],
+                              const double incoming[3], double radiance[3]) {
+    double lit = 0;
+    if (total->facing > 0) {
+        reference_normals normals =
+            reference_normals_of(total->places, total->seconds, total->facing);
+        for (int i = 0; i < 3; i++)
+            normals.mean[i] = total->normal[i] / total->facing;
+        lit = total->facing / total->diffuse * reference_mean_facing_cosine(&normals, incoming);
+    }
     for (int i = 0; i < 3; i++) {
         double cosine = reference_dot(incoming, half_vector);
         double fresnel = reference_fresnel(specular[i], 1, cosine);
         double below = own_colours ? reference_fresnel(0, 1, cosine) : fresnel;
-        radiance[i] = fresnel * reflected + reference_microfacet_diffuse(diffuse[i], below, lit);
+        radiance[i] =
+            fresnel * total->reflected + reference_microfacet_diffuse(diffuse[i], below, lit);
     }
 }
 
@@ -383,18 +411,18 @@ void shade_moments(const lobe_material *material, const reference_moment_bins *p
         bin b = read_bin(material, partition, moments, i);
         // As many as the knob least_share leaves.
         if (b.mass > 1e-3)
-            add_bin(material, &b, half_vector, &total);
+            add_bin(material, &b, half_vector, outgoing, incoming, &total);
     }
     mean_normal_of(material, &total, mean);
     constant_colours(material, specular, diffuse);
     for (int i = 0; partition->colour && i < 3; i++) {
-        specular[i] = total.colour[i] / total.distribution;
+        specular[i] = total.colour[i] / total.reflected;
         diffuse[i] = moments[4 * (reference_moment_layers(partition) - 1) + (uint32_t)i] *
                      partition->colour_scale;
     }
     if (material->model == LOBE_MATERIAL_MICROFACET)
-        shade_microfacets(material, &total, partition->colour, specular, diffuse, mean, half_vector,
-                          outgoing, incoming, radiance);
+        shade_microfacets(&total, partition->colour, specular, diffuse, half_vector, incoming,
+                          radiance);
     else
         shade_lobes(&total, specular, diffuse, mean, incoming, radiance);
 }
