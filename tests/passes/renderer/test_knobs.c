@@ -1,7 +1,7 @@
 // Every knob of every filter, at both ends of its range or with each of its choices, gives a finite
 // picture that is not empty, and no message of the validation layer. Of choices that change no
-// shader, such as sizes, the first and the last are drawn. Of a knob that filters share, each draws
-// every third value, and the next two the rest. Views are the same code in all filters: one draws
+// shader, such as sizes, the first and the last are drawn. Filters that share a knob draw its values
+// in turn: of five filters, or of all if there are fewer, each draws others. Views are the same code in all filters: one draws
 // them all here, and each those that show its own numbers below.
 
 #include "tests/passes/support/fixture.h"
@@ -57,17 +57,15 @@ static size_t users(size_t filter_count, const filter_knob *knob) {
     return count;
 }
 
-/// The values of a knob in one filter.
+/// The values of a knob in one filter: it draws one of `every`.
 typedef struct knob_turns {
-    bool shared;
-    size_t next;
+    size_t every, next;
 } knob_turns;
 
 static void draw_in_turn(fixture *f, const char *filter, const char *assignment,
                          knob_turns *turns) {
-    if (!turns->shared || turns->next % 3 == 0)
+    if (turns->next++ % turns->every == 0)
         draw_with(f, filter, assignment);
-    turns->next++;
 }
 
 /// The picture of the default is drawn once for all knobs.
@@ -75,7 +73,8 @@ static void draw_knob(fixture *f, size_t filter_index, const filter_knob *knob_f
     const char *filter = lobe_filter_name(lobe_filter_get(filter_index));
     const lobe_knob *knob = &knob_feed->description;
     const bool ends = knob_feed->feeds.route == KNOB_HOST && !knob_feed->decides_slots;
-    knob_turns turns = {.shared = users(lobe_filter_count(), knob_feed) > 2,
+    const size_t sharing = users(lobe_filter_count(), knob_feed);
+    knob_turns turns = {.every = sharing < 5 ? sharing : 5,
                         .next = users(filter_index, knob_feed)};
     char assignment[128];
     for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
