@@ -1,8 +1,9 @@
 // Every knob of every filter, at both ends of its range or with each of its choices, gives a finite
 // picture that is not empty, and no message of the validation layer. Of choices that change no
-// shader, such as sizes, the first and the last are drawn. Filters that share a knob draw its values
-// in turn: of five filters, or of all if there are fewer, each draws others. Views are the same code in all filters: one draws
-// them all here, and each those that show its own numbers below.
+// shader, such as sizes, the first and the last are drawn. Filters that share a knob draw its
+// values in turn: of five filters, or of all if there are fewer, each draws others. Views are the
+// same code in all filters: one draws them all here, and each those that show its own numbers
+// below.
 
 #include "tests/passes/support/fixture.h"
 
@@ -74,8 +75,7 @@ static void draw_knob(fixture *f, size_t filter_index, const filter_knob *knob_f
     const lobe_knob *knob = &knob_feed->description;
     const bool ends = knob_feed->feeds.route == KNOB_HOST && !knob_feed->decides_slots;
     const size_t sharing = users(lobe_filter_count(), knob_feed);
-    knob_turns turns = {.every = sharing < 5 ? sharing : 5,
-                        .next = users(filter_index, knob_feed)};
+    knob_turns turns = {.every = sharing < 5 ? sharing : 5, .next = users(filter_index, knob_feed)};
     char assignment[128];
     for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
         if ((double)i == knob->initial || (ends && i > 0 && knob->choices[i + 1]))
