@@ -181,7 +181,7 @@ bool passes_colour_correlation_decides(const filter_context *context, uint32_t i
 // ---------------------------------------------------------------------------------------------
 // Frames that are waited for
 
-/// Filters without maps do not ask.
+/// Filters without maps do not ask. Takes an answer that has come.
 static bool asks(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
     return material->first_instance > 0 && context->filter->build &&
@@ -204,7 +204,9 @@ lobe_result passes_colour_correlations_ask(const filter_context *context) {
                 lobe_graph_read_back_late(context->graph, add_pass(context, i), (lobe_range){0});
     }
     const lobe_result result = lobe_graph_execute(context->graph);
+    // The next frame aside takes the answers' memory.
     for (uint32_t i = 0; result == LOBE_OK && i < count; i++)
-        (void)asks(context, i);
+        if (context->scene->materials[i].colours.late != 0)
+            update(context, &context->scene->materials[i]);
     return result;
 }
