@@ -32,8 +32,8 @@ typedef struct colour_correlation {
     bool asked; ///< false: no filter has
     bool known; ///< the answer has come from the device
     bool follow_normals;
-    /// A frame was drawn without knowing it, for which nobody waited. Its pipelines serve either
-    /// answer, and later frames keep them.
+    /// A frame that nobody waited for was drawn without the answer. Its pipelines serve either, and
+    /// later frames keep them.
     bool was_open;
     uint64_t late;              ///< by which the graph finds the answer; 0: no frame asks for it
     int32_t images[3];          ///< that it is found from: base colour, normal, width; -1: none

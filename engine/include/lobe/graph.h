@@ -354,8 +354,8 @@ LOBE_API LOBE_HOST_FORMAT lobe_result lobe_graph_fail(lobe_graph *graph, lobe_re
 LOBE_API void lobe_graph_output(lobe_graph *graph, lobe_resource resource);
 /// Marks content as an output that is copied to host memory, see lobe_graph_data.
 LOBE_API void lobe_graph_read_back(lobe_graph *graph, lobe_resource resource, lobe_range range);
-/// The same for a frame that nobody waits for. Returns the number by which lobe_graph_late_data
-/// finds the bytes; 0: the frame has failed.
+/// The same, for a frame that nobody waits for. Returns the number under which lobe_graph_late_data
+/// finds the bytes later; 0: the frame has failed.
 LOBE_API uint64_t lobe_graph_read_back_late(lobe_graph *graph, lobe_resource resource,
                                             lobe_range range);
 
@@ -407,10 +407,10 @@ LOBE_API lobe_result lobe_graph_wait(lobe_graph *graph);
 /// NULL.
 LOBE_API const void *lobe_graph_data(const lobe_graph *graph, lobe_resource resource, size_t *size);
 
-/// The bytes read back by lobe_graph_read_back_late, once the device is known to have finished
-/// their frame, so that waiting is not needed: while several frames are in flight, when the frame
-/// is declared that takes that one's place. Valid until that frame is executed or submitted. NULL:
-/// not yet, or no longer. `*pending` (may be NULL): they may still come.
+/// The bytes that lobe_graph_read_back_late asked for, once the device is known to have finished
+/// their frame. With several frames in flight, that is when the frame that takes its place is
+/// declared. Valid until that frame is executed or submitted. NULL: not there yet, or no longer;
+/// `*pending` (may be NULL) says whether they may still come.
 LOBE_API const void *lobe_graph_late_data(const lobe_graph *graph, uint64_t number, bool *pending);
 
 /// Marks all retained content as out of date, so that the passes that write it run again, except

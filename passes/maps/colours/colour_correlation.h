@@ -5,13 +5,14 @@
 
 /// Whether the diffuse colours of a material go with its normals somewhere on its maps, so that the
 /// mean of their products is not the product of their means. A pass finds it on the device. Frames
-/// that are waited for have its answer before they are declared. Others, and those whose texels the
-/// host gives on the device, read it there, until it has come back.
+/// that are waited for have its answer before they are declared. Other frames, and those whose
+/// texels the host gives on the device, read it there until it has come back.
 
 /// Whether the maps of both have texels and lie on the surface alike: only then it is a question.
 bool passes_colours_lie_like_normals(const device_material *material);
 
-/// Finds it for all materials that the filter asks it of, in a frame aside, and waits.
+/// Asks about all materials for which the filter must know, in a frame aside, and waits for the
+/// answers.
 lobe_result passes_colour_correlations_ask(const filter_context *context);
 
 /// False if they do not lie alike, or it is known that colours do not follow.
