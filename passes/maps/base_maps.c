@@ -68,6 +68,7 @@ void passes_base_maps_specialise(const device_material *material, specialisation
                       passes_device_map_is_interpolated(material, MAP_NORMAL) ||
                           passes_device_map_is_interpolated(material, MAP_WIDTH));
     passes_specialise(list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
+    passes_specialise(list, SPECIALISE_MASK_POINTS, passes_mask_cuts_texels(material));
 }
 
 void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,

@@ -41,10 +41,16 @@ material_patch_place passes_material_patch_place(const device_material *material
     return at;
 }
 
-void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]) {
+void passes_material_patch_point(const material_patch_place *place, const lobe_mask *mask,
+                                 uint32_t i, double point[2]) {
+    const uint32_t x = place->left + i % place->columns, y = place->top + i / place->columns;
+    if (mask->cuts_texels) {
+        passes_lobe_mask_point(mask, x, y, point);
+        return;
+    }
     // One point in every texel is enough: see shaders/lib/map/texel_point.glsl.
-    point[0] = place->left + i % place->columns + 0.5 + TEXEL_POINT;
-    point[1] = place->top + i / place->columns + 0.5 + TEXEL_POINT;
+    point[0] = x + 0.5 + TEXEL_POINT;
+    point[1] = y + 0.5 + TEXEL_POINT;
 }
 
 bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,
@@ -54,8 +60,8 @@ bool passes_material_patch_read(const device_material *material, const lobe_mask
     patch->count = 0;
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
-        passes_material_patch_point(&at, i, point);
-        if (passes_lobe_mask_cuts(mask, (uint32_t)point[0], (uint32_t)point[1]))
+        passes_material_patch_point(&at, mask, i, point);
+        if (passes_lobe_mask_cuts(mask, point))
             continue;
         kept++;
         uint32_t count =

@@ -1,7 +1,7 @@
 #ifndef PASSES_MAPS_MATERIAL_PATCH_H
 #define PASSES_MAPS_MATERIAL_PATCH_H
 
-#include "passes/upload/colours/lobe_mask.h"
+#include "passes/maps/colours/lobe_mask.h"
 #include "passes/upload/material_lobes.h"
 
 /// The lobes of a small square of a material's maps, as a pixel's footprint may contain them.
@@ -22,7 +22,8 @@ typedef struct material_patch_place {
 
 material_patch_place passes_material_patch_place(const device_material *material, uint32_t index);
 /// Where texel `i` of the patch's columns * rows is read, in texels of the lobe_grid.
-void passes_material_patch_point(const material_patch_place *place, uint32_t i, double point[2]);
+void passes_material_patch_point(const material_patch_place *place, const lobe_mask *mask,
+                                 uint32_t i, double point[2]);
 
 /// What a mask keeps of patch `index` of MATERIAL_PATCHES. False if a map has a format that the
 /// host does not read.

@@ -22,8 +22,7 @@ float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
                    : 1.0f / (float)material->lobe_count;
 }
 
-/// Texel `i` of a row of `size`, where `i` may lie outside it.
-static uint32_t wrapped(int64_t i, uint32_t size, lobe_scene_wrap wrap) {
+uint32_t passes_wrapped_texel(int64_t i, uint32_t size, lobe_scene_wrap wrap) {
     if (wrap == LOBE_SCENE_WRAP_CLAMP)
         return (uint32_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
     int64_t period = wrap == LOBE_SCENE_WRAP_MIRROR ? 2 * (int64_t)size : size;
@@ -35,8 +34,8 @@ static uint32_t wrapped(int64_t i, uint32_t size, lobe_scene_wrap wrap) {
 static bool add_texel(const lobe_image *image, const lobe_texture_use *use, int64_t x, int64_t y,
                       double weight, double value[4]) {
     float texel[4];
-    if (!passes_image_texel(image, wrapped(x, image->width, use->wrap_u),
-                            wrapped(y, image->height, use->wrap_v), texel))
+    if (!passes_image_texel(image, passes_wrapped_texel(x, image->width, use->wrap_u),
+                            passes_wrapped_texel(y, image->height, use->wrap_v), texel))
         return false;
     for (int i = 0; i < 4; i++)
         value[i] += weight * (double)texel[i];

@@ -33,4 +33,7 @@ void passes_material_lobe_rotate(const double normal[3], const double local[3], 
 /// [0, infinity): coth kappa - 1/kappa. (Mardia, Jupp 2000, section 9.3.)
 double passes_mean_resultant_length(double kappa);
 
+/// Texel `i` of a row of `size`, where `i` may lie outside it.
+uint32_t passes_wrapped_texel(int64_t i, uint32_t size, lobe_scene_wrap wrap);
+
 #endif

@@ -126,6 +126,16 @@ bool passes_lobes_are_masked(const device_material *material) {
            passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR);
 }
 
+bool passes_mask_cuts_texels(const device_material *material) {
+    const device_map *mask = &material->maps[MAP_BASE_COLOUR];
+    const lobe_grid grid = passes_lobe_grid(material);
+    return passes_lobes_are_masked(material) &&
+           (passes_device_map_is_interpolated(material, MAP_BASE_COLOUR) ||
+            passes_device_map_is_interpolated(material, MAP_NORMAL) ||
+            passes_device_map_is_interpolated(material, MAP_WIDTH) ||
+            grid.width % mask->width != 0 || grid.height % mask->height != 0);
+}
+
 bool passes_lies_under_lobes(const device_material *material, uint32_t map) {
     const lobe_grid grid = passes_lobe_grid(material);
     const device_map *own = &material->maps[map];

@@ -47,6 +47,8 @@ bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32
 /// Whether the material has a mask that lies as the grid does: maps of lobes leave out what it cuts
 /// away.
 bool passes_lobes_are_masked(const device_material *material);
+/// Whether in texels of the grid only a part of what their maps hold may be kept by such a mask.
+bool passes_mask_cuts_texels(const device_material *material);
 /// Whether a map of a material, if it has that, lies as the grid does, and is no finer.
 bool passes_lies_under_lobes(const device_material *material, uint32_t map);
 

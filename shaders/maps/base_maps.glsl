@@ -10,16 +10,12 @@
 #include "interface/lobe_grid.h"
 #include "lib/map/base_texel.glsl"
 #include "lib/map/normal_map.glsl"
-#include "lib/map/texel_point.glsl"
 #include "maps/base_widths.glsl"
+#include "maps/map_points.glsl"
 #include "maps/mask_weight.glsl"
 
 layout(constant_id = SPECIALISE_MAPS) const uint MAPS = 0;
 layout(constant_id = SPECIALISE_NORMALS) const uint NORMALS = NORMALS_UNSIGNED;
-layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
-
-// Points of a texel at which the maps are read: its centre where no map is interpolated.
-const int POINTS = INTERPOLATED ? TEXEL_POINTS : 1;
 
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 5) uniform sampler2D normal_map;
@@ -27,12 +23,6 @@ layout(set = 0, binding = 6) uniform sampler2D width_map;
 
 bool has_map(int map) {
     return (MAPS & (1u << map)) != 0u;
-}
-
-// Point `index` of POINTS of a texel, in the coordinates of all maps; `size`: texels of the larger.
-vec2 map_point(ivec2 texel, int index, ivec2 size) {
-    vec2 offset = INTERPOLATED ? texel_point(index) : vec2(0.0);
-    return (vec2(texel) + 0.5 + offset) / vec2(size);
 }
 
 vec3 normal_at(vec2 point) {

@@ -14,14 +14,13 @@
 #include "interface/specialisation.h"
 #include "lib/map/base_texel.glsl"
 #include "lib/map/box_reduction.glsl"
-#include "lib/map/texel_point.glsl"
+#include "maps/map_points.glsl"
 #include "maps/mask_weight.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = SPECIALISE_METAL_MEANS) const uint METAL_MEANS = METAL_MEANS_ALONE;
-layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
 layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 6) uniform sampler2D width_map;
@@ -47,12 +46,9 @@ void add_point(inout point_sums sums, vec2 point, float weight) {
 
 // Colours that are interpolated are averaged as products of colour and metal are, see
 // lib/map/texel_point.glsl.
-void add_texel(inout point_sums sums, ivec2 texel, vec2 size, float weight) {
-    int points = INTERPOLATED ? TEXEL_POINTS : 1;
-    for (int i = 0; i < points; ++i) {
-        vec2 offset = INTERPOLATED ? texel_point(i) : vec2(0.0);
-        add_point(sums, (vec2(texel) + 0.5 + offset) / size, weight / float(points));
-    }
+void add_texel(inout point_sums sums, ivec2 texel, ivec2 size, float weight) {
+    for (int i = 0; i < POINTS; ++i)
+        add_point(sums, map_point(texel, i, size), weight / float(POINTS));
 }
 
 void main() {
@@ -65,7 +61,7 @@ void main() {
     point_sums sums = point_sums(vec4(0.0), vec4(0.0));
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x)
-            add_texel(sums, 2 * position + ivec2(x, y), vec2(size),
+            add_texel(sums, 2 * position + ivec2(x, y), size,
                       row_weights[y] * column_weights[x]);
     }
     if (METAL_MEANS == METAL_MEANS_COLOURED) {

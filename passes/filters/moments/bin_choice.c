@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "passes/filters/moments/footprint.h"
+#include "passes/maps/colours/lobe_mask.h"
 #include "passes/maps/material_patch.h"
-#include "passes/upload/colours/lobe_mask.h"
 #include "passes/upload/material_maps.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
@@ -54,8 +54,8 @@ static void read_patch(const lobe_scene *scene, const device_material *material,
     const material_patch_place at = passes_material_patch_place(material, index);
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
-        passes_material_patch_point(&at, i, point);
-        if (passes_lobe_mask_cuts(mask, (uint32_t)point[0], (uint32_t)point[1]))
+        passes_material_patch_point(&at, mask, i, point);
+        if (passes_lobe_mask_cuts(mask, point))
             continue;
         patch->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
                                                   &patch->lobes[patch->count]);

@@ -51,7 +51,9 @@ static void add_level(const filter_context *context, uint32_t index,
 static uint32_t finest_samples(const device_material *material, uint32_t samples) {
     const bool interpolated = passes_device_map_is_interpolated(material, MAP_NORMAL) ||
                               passes_device_map_is_interpolated(material, MAP_WIDTH);
-    const uint32_t points = 4 * (interpolated ? TEXEL_POINTS : 1);
+    const uint32_t points = 4 * (passes_mask_cuts_texels(material) ? MASKED_TEXEL_POINTS
+                                 : interpolated                    ? TEXEL_POINTS
+                                                                   : 1);
     return samples * samples < points ? samples : 0;
 }
 

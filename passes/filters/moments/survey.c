@@ -5,7 +5,7 @@
 
 #include "passes/context/sample_pattern.h"
 #include "passes/filters/moments/coreset.h"
-#include "passes/upload/colours/lobe_mask.h"
+#include "passes/maps/colours/lobe_mask.h"
 #include "passes/upload/material_rows.h"
 
 /// What most texels have, to find those that differ.
@@ -21,6 +21,7 @@ typedef struct surveying {
     const lobe_material *material;
     material_rows *rows;
     lobe_mask mask;
+    uint64_t kept; ///< texels
     usual_texel usual;
     coreset chosen;
     float low[2], high[2]; ///< of the places
@@ -81,7 +82,7 @@ static void weigh_row(surveying *s) {
 /// What a mask cuts away would have bins of its own, but nobody sees it.
 static void leave_out_cut(surveying *s, uint32_t y) {
     for (uint32_t x = 0; s->mask.image && x < s->rows->width; x++)
-        s->density[x] = passes_lobe_mask_cuts(&s->mask, x, y) ? 0 : s->density[x];
+        s->density[x] = passes_lobe_mask_cuts_texel(&s->mask, x, y) ? 0 : s->density[x];
 }
 
 static float least_of(float a, float b) {
@@ -179,7 +180,7 @@ static void find_usual(surveying *s) {
         if (i % PILOT == 0)
             read_row(s, y);
         // Some texels tell enough; where a mask keeps none of them, all are as usual as others.
-        if (passes_lobe_mask_cuts(&s->mask, x, y))
+        if (passes_lobe_mask_cuts_texel(&s->mask, x, y))
             continue;
         count += 1;
         for (int axis = 0; axis < 2; axis++) {
@@ -212,8 +213,7 @@ static void find_usual(surveying *s) {
 static void read_all(surveying *s) {
     const material_rows *rows = s->rows;
     find_usual(s);
-    passes_coreset_begin(&s->chosen, 1.25 * (double)passes_lobe_mask_count_kept(&s->mask),
-                         (double)least_density);
+    passes_coreset_begin(&s->chosen, 1.25 * (double)s->kept, (double)least_density);
     for (uint32_t y = 0; y < rows->height; y++) {
         read_row(s, y);
         weigh_row(s);
@@ -284,10 +284,12 @@ static void take_samples(const surveying *s, const lobe_scene *scene,
     for (uint32_t i = 0; i < s->chosen.count; i++) {
         const coreset_texel *texel = &s->chosen.texels[i];
         // The texels themselves, which spread further than what is interpolated between them:
-        // borders between bins are softer.
+        // borders between bins are softer. Under a mask that cuts texels, what it keeps of them.
+        double point[2];
+        passes_lobe_mask_point(&s->mask, texel->x, texel->y, point);
         survey->count +=
-            passes_plane_samples_read(scene, material, texel->x + 0.5, texel->y + 0.5,
-                                      (double)texel->weight, &survey->samples[survey->count]);
+            passes_plane_samples_read(scene, material, point[0], point[1], (double)texel->weight,
+                                      &survey->samples[survey->count]);
     }
 }
 
@@ -306,8 +308,11 @@ static surveying *begin(const device_scene *scene, const device_material *materi
     s->material = material->material;
     s->rows = rows;
     s->mask = passes_lobe_mask(scene, material);
-    if (passes_lobe_mask_count_kept(&s->mask) == 0)
-        s->mask.image = NULL;
+    s->kept = passes_lobe_mask_count_kept(&s->mask);
+    if (s->kept == 0) {
+        s->mask = (lobe_mask){.grid = s->mask.grid};
+        s->kept = (uint64_t)rows->width * rows->height;
+    }
     s->place[0] = s->data;
     s->place[1] = s->data + rows->width;
     s->density = s->data + (size_t)2 * rows->width;

@@ -70,6 +70,7 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
                       coloured ? METAL_MEANS_COLOURED : METAL_MEANS_ALONE);
     const bool masked = passes_lobes_are_masked(material);
     passes_specialise(&list, SPECIALISE_MASKED_LOBES, masked);
+    passes_specialise(&list, SPECIALISE_MASK_POINTS, passes_mask_cuts_texels(material));
     passes_specialise(
         &list, SPECIALISE_INTERPOLATED,
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||

@@ -2,11 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The base lobes of each texel of a material's maps as samples for mixtures of Gaussians, and what
-// all of them are within. Where maps are interpolated, a sample is the mean over the texel.
+// all of them are within. Where maps are interpolated, a sample is the mean over points of the
+// texel: under a mask, over two of those that it keeps. A Gaussian of all would be as wide as they
+// differ, and components could not tell them apart.
 
 #include "interface/gaussian_mixture.h"
 #include "interface/moment_bins.h"
 #include "lib/microfacet/slope_distribution.glsl"
+#include "lib/number/hash.glsl"
 #include "maps/plane_lobes.glsl"
 
 const uint SIDE = 8, THREADS = SIDE * SIDE;
@@ -57,11 +60,59 @@ plane_lobe lobe_in_plane(int i, vec3 normal, float factor, vec4 specular) {
     return lobe;
 }
 
-// Sums over the texel's points of base lobe `i`.
-lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
-    lobe_sums sums = lobe_sums(0.0, vec4(0.0), vec3(0.0), vec4(0.0));
+// The points that a sample is made of, and how much each counts.
+struct sample_points {
+    vec2 points[2];
+    float weight;
+};
+
+const int SAMPLE_POINTS = POINTS > 1 ? 2 : 1;
+
+vec2 point_of_texel(ivec2 texel, int index) {
+    return map_point(texel, index, ivec2(constants.width, constants.height));
+}
+
+float weight_at(vec2 point) {
+    return weight_of_point(point, constants.alpha, constants.cutoff);
+}
+
+// The number of the bit that has `index` others below it.
+int find_bit(uint bits, int index) {
+    for (int i = 0; i < index; ++i)
+        bits &= bits - 1u;
+    return findLSB(bits);
+}
+
+// Two at random of all that are kept, not far apart: bit `i` of `kept` is point `i`.
+sample_points choose_points(ivec2 texel, uint kept, float weight) {
+    int count = bitCount(kept);
+    int first = int(hash(uint(texel.x) + hash(uint(texel.y))) % uint(count));
+    int second = (first + 2) % count;
+    return sample_points(vec2[](point_of_texel(texel, find_bit(kept, first)),
+                                point_of_texel(texel, find_bit(kept, second))), weight);
+}
+
+sample_points points_of_sample(ivec2 texel) {
+    if (!MASK_POINTS) {
+        vec2 first = point_of_texel(texel, 0);
+        return sample_points(vec2[](first, point_of_texel(texel, SAMPLE_POINTS - 1)),
+                             weight_at(first));
+    }
+    uint kept = 0u;
+    float weight = 0.0;
     for (int k = 0; k < POINTS; ++k) {
-        vec2 point = map_point(texel, k, ivec2(constants.width, constants.height));
+        float own = weight_at(point_of_texel(texel, k));
+        kept |= own == 1.0 ? 1u << k : 0u;
+        weight += own / float(POINTS);
+    }
+    return choose_points(texel, kept == 0u ? (1u << POINTS) - 1u : kept, weight);
+}
+
+// Sums over the texel's points of base lobe `i`.
+lobe_sums sum_points(sample_points chosen, int i, inout mixture_extremes own) {
+    lobe_sums sums = lobe_sums(0.0, vec4(0.0), vec3(0.0), vec4(0.0));
+    for (int k = 0; k < SAMPLE_POINTS; ++k) {
+        vec2 point = chosen.points[k];
         vec4 specular = vec4(0.0);
         vec3 diffuse;
         if (BIN_COLOUR) {
@@ -70,7 +121,7 @@ lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
         }
         plane_lobe lobe = lobe_in_plane(i, normal_at(point), width_at(point), specular);
         // Lobes without mass have a place and a width, too.
-        float weight = weight_of_point(point, constants.alpha, constants.cutoff) / float(POINTS);
+        float weight = chosen.weight / float(SAMPLE_POINTS);
         float mass = weight * max(lobe.mass, 1e-20), sharpness = inversesqrt(lobe.variance);
         sums.mass += mass;
         sums.lobe += mass * vec4(lobe.place, sharpness, lobe.variance);
@@ -88,13 +139,12 @@ lobe_sums sum_points(ivec2 texel, int i, inout mixture_extremes own) {
 vec4 last_of_texel(ivec2 texel, inout mixture_extremes own) {
     vec4 sum = vec4(0.0);
     for (int k = 0; k < POINTS; ++k) {
-        vec2 point = map_point(texel, k, ivec2(constants.width, constants.height));
+        vec2 point = point_of_texel(texel, k);
         vec4 specular;
         vec3 diffuse = vec3(0.0);
         if (BIN_COLOUR)
             colours_at(point, specular, diffuse);
-        sum += weight_of_point(point, constants.alpha, constants.cutoff) / float(POINTS) *
-               vec4(diffuse / material.largest_colour, 1.0);
+        sum += weight_at(point) / float(POINTS) * vec4(diffuse / material.largest_colour, 1.0);
     }
     extend_colours(sum.rgb, own);
     return sum;
@@ -102,8 +152,9 @@ vec4 last_of_texel(ivec2 texel, inout mixture_extremes own) {
 
 void write_texel(ivec2 texel, inout mixture_extremes own) {
     float whole = 0.0;
+    sample_points chosen = points_of_sample(texel);
     for (int i = 0; i < LOBE_COUNT; ++i) {
-        lobe_sums sums = sum_points(texel, i, own);
+        lobe_sums sums = sum_points(chosen, i, own);
         vec4 mean = sums.lobe / max(sums.mass, 1e-30);
         vec3 square = vec3(mean.xy * mean.xy, mean.x * mean.y);
         vec3 covariance = sums.square / max(sums.mass, 1e-30) - square;

@@ -51,7 +51,7 @@ vec4 fetch_texel(sampler2D map, uvec2 position) {
     return texelFetch(map, ivec2(position * size / uvec2(constants.width, constants.height)), 0);
 }
 
-grid_texel read_texel(uvec2 position) {
+grid_texel stored_texel(uvec2 position) {
     grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), 1.0, 1.0);
     if (has_map(MAP_NORMAL))
         texel.normal =
@@ -64,6 +64,17 @@ grid_texel read_texel(uvec2 position) {
         texel.weight = weight_of_alpha(finite_or_zero(fetch_texel(base_colour_map, position)).a,
                                        constants.alpha, constants.cutoff);
     return texel;
+}
+
+// What stands for a texel: itself or, where a mask may cut a part of it away, one of its points at
+// random.
+grid_texel read_texel(uvec2 position) {
+    if (!MASK_POINTS)
+        return stored_texel(position);
+    uint index = hash(position.x + hash(position.y)) % uint(POINTS);
+    vec2 point = map_point(ivec2(position), int(index), ivec2(constants.width, constants.height));
+    return grid_texel(normal_at(point), width_at(point),
+                      weight_of_point(point, constants.alpha, constants.cutoff));
 }
 
 // The largest of its colours.
@@ -259,6 +270,9 @@ void main() {
         uvec2 position = texel_of_cell(cell, i);
         grid_texel texel = read_texel(position);
         sum += density_of(texel, usual);
+        // Whatever is interpolated lies between the texels themselves.
+        if (MASK_POINTS)
+            texel = stored_texel(position);
         extend(least, texel);
         if (BRIGHT_TEXELS)
             least.factors.z = min(least.factors.z, -brightness_of_texel(position));

@@ -19,4 +19,14 @@ vec2 texel_point(int index) {
     return vec2(index == 0 ? TEXEL_POINT : -TEXEL_POINT);
 }
 
+// Under a mask, what is kept ends inside texels, wherever alpha meets the cutoff, and of normals
+// that are interpolated only those count that lie on one side. Points that suit products are then
+// wrong: both are about as far from the texel's centre. These fill the texel evenly: a lattice of
+// rank 1 (Sloan, Joe 1994, Lattice Methods for Multiple Integration), moved so that each quarter of
+// the texel has four.
+vec2 masked_texel_point(int index) {
+    float count = float(MASKED_TEXEL_POINTS), along = float(index);
+    return vec2((along + 0.5) / count, fract((3.0 * along + 5.5) / count)) - 0.5;
+}
+
 #endif

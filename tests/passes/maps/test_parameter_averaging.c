@@ -1,10 +1,12 @@
 // The naive filter's map against means in double precision: normals and widths averaged as if they
-// were colours.
+// were colours; and under a mask, against counts of what it keeps.
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "passes/maps/parameter_averaging.h"
+#include "tests/passes/support/map_reference.h"
+#include "tests/passes/support/mask_reference.h"
 #include "tests/passes/support/mixture_reference.h"
 #include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/scene_builder.h"
@@ -79,10 +81,92 @@ static void widths_are_averaged_as_concentrations(void **state) {
     check_scene(*state, scene, &material);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Masks
+
+enum { MASKED = 16, POINTS_A_SIDE = 24 };
+
+static double alpha_at(const lobe_scene *scene, const lobe_material *material, double u, double v) {
+    double colour[4];
+    reference_map_value(scene, &material->base_colour_map, u, v, colour);
+    return colour[3];
+}
+
+/// Adds the part of a square that the mask keeps, (0, 0) to (1, 1) the map: its mean normal times
+/// its share, and that.
+static void add_kept(const lobe_scene *scene, const lobe_material *material, double u, double v,
+                     double side, double kept[4]) {
+    for (int i = 0; i < POINTS_A_SIDE * POINTS_A_SIDE; i++) {
+        const double x = u + side * (i % POINTS_A_SIDE + 0.5) / POINTS_A_SIDE;
+        const double y = v + side * (i / POINTS_A_SIDE + 0.5) / POINTS_A_SIDE; // NOLINT
+        double normal[3], width[4];
+        if (alpha_at(scene, material, x, y) < (double)material->alpha_cutoff)
+            continue;
+        read_surface(scene, material, x, y, normal, width);
+        for (int axis = 0; axis < 3; axis++)
+            kept[axis] += normal[axis] / (POINTS_A_SIDE * POINTS_A_SIDE);
+        kept[3] += 1.0 / (POINTS_A_SIDE * POINTS_A_SIDE);
+    }
+}
+
+/// The root of the mean squared error of mean slopes, and that of mean shares, over all texels.
+static void check_kept(const lobe_scene *scene, const lobe_material *material, const float *normals,
+                       const float *shares) {
+    const uint32_t side = MASKED / 2;
+    double squares = 0, error = 0, share_error = 0;
+    for (uint32_t i = 0; i < side * side; i++) {
+        double kept[4] = {0};
+        add_kept(scene, material, i % side / (double)side, i / side / (double)side, 1.0 / side,
+                 kept);
+        share_error += pow((double)shares[4 * (size_t)i] - kept[3], 2) / (side * side);
+        for (int axis = 0; axis < 2; axis++) {
+            const double found = (double)normals[4 * (size_t)i + axis];
+            error += pow(found - kept[axis], 2);
+            squares += pow(kept[axis], 2);
+        }
+    }
+    error = sqrt(error / squares);
+    if (!(error < 0.15 && sqrt(share_error) < 0.04))
+        fail_msg("cutoff %g: slopes %g, shares %g off", (double)material->alpha_cutoff, error,
+                 sqrt(share_error));
+}
+
+static void check_mask(fixture *f, uint32_t texels, bool nearest, float cutoff) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.normal_map = scene_add_map(scene, random_normal_map(MASKED, MASKED, 0.6, 161));
+    material.base_colour_map = scene_add_map(scene, mask_image(MASK_CHECKER, texels, texels));
+    material.normal_map.nearest = material.base_colour_map.nearest = nearest;
+    material.alpha_mask = true;
+    material.alpha_cutoff = cutoff;
+    scene_end_with_square(scene, &material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "mipmap", (const char *[]){"storage=float32", NULL});
+    const reduced_map map =
+        passes_lobe_map(&run.context, 0, &passes_averaged_parameters, LOBE_FORMAT_RGBA32_FLOAT);
+    float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
+    check_kept(scene, &material, found, found + (size_t)4 * map.width * map.height);
+    free(found);
+    pass_run_end(&run);
+    lobe_scene_destroy(&scene);
+}
+
+/// What is kept ends where interpolated alpha meets the cutoff, inside texels; also where texels of
+/// the mask are smaller than those of the normals.
+static void masks_cut_texels(void **state) {
+    check_mask(*state, MASKED, false, 0.2f);
+    check_mask(*state, MASKED, false, 0.5f);
+    check_mask(*state, MASKED, false, 0.8f);
+    check_mask(*state, 4 * MASKED, true, 0.5f);
+    check_mask(*state, 3 * MASKED, false, 0.5f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(odd_sizes_are_averaged_exactly),
         cmocka_unit_test(widths_are_averaged_as_concentrations),
+        cmocka_unit_test(masks_cut_texels),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

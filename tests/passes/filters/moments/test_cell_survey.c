@@ -201,16 +201,17 @@ static void bright_texels_are_found(void **state) {
     }
 }
 
-/// What a mask cuts away counts a thousandth, also in what is usual: a few kept texels among many
-/// that lie elsewhere are most of the sample.
-static void the_sample_is_of_what_a_mask_keeps(void **state) {
-    enum { WIDTH = 256, HEIGHT = 192, KEPT = 4 };
+enum { MASKED_WIDTH = 256, MASKED_HEIGHT = 192, KEPT_COLUMNS = 4 };
+
+/// Surveys a map of which a mask keeps some columns: their normals lean to one side, those of all
+/// others to the other.
+static void survey_columns(fixture *f, bool nearest) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3f, 0);
-    lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTH, HEIGHT);
-    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, WIDTH, HEIGHT);
-    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
-        const bool kept = i % WIDTH < KEPT;
+    lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, MASKED_WIDTH, MASKED_HEIGHT);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, MASKED_WIDTH, MASKED_HEIGHT);
+    for (uint32_t i = 0; i < MASKED_WIDTH * MASKED_HEIGHT; i++) {
+        const bool kept = i % MASKED_WIDTH < KEPT_COLUMNS;
         float *normal = (float *)normals.texels + (size_t)4 * i;
         normal[0] = kept ? 0.7f : i % 2 ? 0.2f : 0.4f;
         normal[1] = 0.5f;
@@ -219,17 +220,36 @@ static void the_sample_is_of_what_a_mask_keeps(void **state) {
     }
     material.normal_map = scene_add_map(scene, normals);
     material.base_colour_map = scene_add_map(scene, colours);
+    material.normal_map.nearest = material.base_colour_map.nearest = nearest;
     material.alpha_mask = true;
     material.alpha_cutoff = 0.5f;
-    lobe_survey *survey = survey_both(*state, scene, &material, false, 0);
-    const double expected = KEPT * HEIGHT, rest = (WIDTH - KEPT) * HEIGHT / 1024.0;
+    lobe_survey *survey = survey_both(f, scene, &material, false, 0);
+    check_places(survey, nearest ? "masked" : "masked, interpolated");
+    lobe_release(survey);
+}
+
+/// What a mask cuts away counts a thousandth, also in what is usual: a few kept texels among many
+/// that lie elsewhere are most of the sample.
+static void the_sample_is_of_what_a_mask_keeps(void **state) {
+    survey_columns(*state, true);
+    const double expected = KEPT_COLUMNS * MASKED_HEIGHT;
+    const double rest = (MASKED_WIDTH - KEPT_COLUMNS) * MASKED_HEIGHT / 1024.0;
     double kept = 0;
     for (uint32_t k = 0; k < found.survey.lobe_count; k++)
         kept += found.lobes[k][0] > 0 ? (double)found.lobes[k][3] : 0;
     if (!(fabs(kept / expected - 1) < 0.01 && fabs(found.total - kept - rest) < 0.05 * rest))
         fail_msg("%g kept and %g cut instead of %g and %g", kept, found.total - kept, expected,
                  rest);
-    lobe_release(survey);
+}
+
+/// Interpolated alpha meets the cutoff a part of a texel beyond the kept columns, on either side.
+static void the_sample_is_of_what_a_mask_keeps_of_texels(void **state) {
+    survey_columns(*state, false);
+    const double beyond = (200 - 127.5) / (200 - 100) - 0.5;
+    const double columns = KEPT_COLUMNS + 2 * beyond;
+    const double expected = MASKED_HEIGHT * (columns + (MASKED_WIDTH - columns) / 1024.0);
+    if (!(fabs(found.total / expected - 1) < 0.03))
+        fail_msg("%g texels instead of %g", found.total, expected);
 }
 
 int main(void) {
@@ -237,6 +257,7 @@ int main(void) {
         cmocka_unit_test(extremes_are_those_of_all_texels),
         cmocka_unit_test(the_sample_stands_for_all_texels),
         cmocka_unit_test(the_sample_is_of_what_a_mask_keeps),
+        cmocka_unit_test(the_sample_is_of_what_a_mask_keeps_of_texels),
         cmocka_unit_test(what_is_rare_is_seen),
         cmocka_unit_test(bright_texels_are_found),
     };

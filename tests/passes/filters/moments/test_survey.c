@@ -154,6 +154,41 @@ static void the_sample_is_of_what_a_mask_keeps(void **state) {
     lobe_release(survey);
 }
 
+/// Where interpolated alpha ends inside texels, the sample is of what is kept there: of V-shaped
+/// grooves whose left walls have alpha 1 and their right walls 0, all slopes from a wall's own to
+/// none.
+static void the_sample_is_of_what_a_mask_keeps_of_texels(void **state) {
+    enum { WIDTH = 256, HEIGHT = 64 };
+    static const float cutoffs[] = {0.25f, 0.5f, 0.75f};
+    for (int k = 0; k < 3; k++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material;
+        lobe_material_default(&material);
+        lobe_image normals = map_image(LOBE_FORMAT_RGBA8_UNORM, WIDTH, HEIGHT);
+        lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, WIDTH, HEIGHT);
+        for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
+            set_slope(&normals, i % WIDTH, i / WIDTH, i % 2 ? 0.3 : -0.3);
+            ((unsigned char *)colours.texels)[4 * i + 3] = i % 2 ? 0 : 255;
+        }
+        material.normal_map = scene_add_map(scene, normals);
+        material.base_colour_map = scene_add_map(scene, colours);
+        material.alpha_mask = true;
+        material.alpha_cutoff = cutoffs[k];
+        lobe_survey *survey = survey_of(*state, scene, &material);
+        double mean = 0, total = 0;
+        for (uint32_t i = 0; i < survey->count; i++) {
+            mean += survey->samples[i].weight * survey->samples[i].place[0];
+            total += survey->samples[i].weight;
+        }
+        // Slopes go from 0.3 at alpha 1 to -0.3 at alpha 0.
+        const double expected = 0.3 * (double)cutoffs[k];
+        if (!(fabs(mean / total / expected - 1) < 0.1))
+            fail_msg("cutoff %g: mean place %g instead of about %g", (double)cutoffs[k],
+                     mean / total, expected);
+        lobe_release(survey);
+    }
+}
+
 /// Every texel of a small map is drawn; of a large one neither too many nor too few, however much
 /// they differ, and their weights stand for all of them.
 static void weights_stand_for_all_texels(void **state) {
@@ -191,6 +226,7 @@ int main(void) {
         cmocka_unit_test(what_is_rare_is_seen),
         cmocka_unit_test(rare_widths_are_seen),
         cmocka_unit_test(the_sample_is_of_what_a_mask_keeps),
+        cmocka_unit_test(the_sample_is_of_what_a_mask_keeps_of_texels),
         cmocka_unit_test(weights_stand_for_all_texels),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
