@@ -25,8 +25,13 @@ bool has_map(int map) {
     return (MAPS & (1u << map)) != 0u;
 }
 
-vec3 normal_at(vec2 point) {
-    return has_map(MAP_NORMAL)
+// `factor`, `cutoff`: of the mask, as in lobe_grid_constants. In its holes the surface is level: a
+// normal may hold anything there, and a steep one would be seen beside a polish however little it
+// counts.
+vec3 normal_at(vec2 point, float factor, float cutoff) {
+    bool is_seen = !MASKED_LOBES ||
+                   !is_cut(base_texel(base_colour_map, point).a, factor, cutoff);
+    return has_map(MAP_NORMAL) && is_seen
                ? decode_normal(textureLod(normal_map, point, 0.0).xyz, material.normal_scale,
                                NORMALS)
                : vec3(0.0, 0.0, 1.0);

@@ -36,7 +36,7 @@ void main() {
                 float metallic = METALLIC_MAP ? base_texel(width_map, point).b : 0.0;
                 float weight = row_weights[y] * column_weights[x] / float(POINTS) *
                                weight_of_point(point, constants.alpha, constants.cutoff);
-                vec4 normal = vec4(normal_at(point), 1.0);
+                vec4 normal = vec4(normal_at(point, constants.alpha, constants.cutoff), 1.0);
                 vec3 colour = base_texel(base_colour_map, point).rgb;
                 products += outerProduct(normal, weight * (1.0 - metallic) * colour);
                 mean += weight * normal;

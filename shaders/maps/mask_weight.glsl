@@ -9,13 +9,17 @@
 layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
 
 // How much a point counts that is cut away: next to nothing, but where nothing is kept there are
-// normals, too.
-const float WEIGHT_OF_CUT = 1.0 / 1024.0;
+// normals, too. The smallest number that half floats have with all their digits.
+const float WEIGHT_OF_CUT = 1.0 / 16384.0;
 
-// How much a point counts where the base colour map has this alpha. `factor`, `cutoff`: of the
+// Whether a mask cuts away where the base colour map has this alpha. `factor`, `cutoff`: of the
 // mask, as in lobe_grid_constants.
+bool is_cut(float alpha, float factor, float cutoff) {
+    return MASKED_LOBES && alpha * factor < cutoff;
+}
+
 float weight_of_alpha(float alpha, float factor, float cutoff) {
-    return MASKED_LOBES && alpha * factor < cutoff ? WEIGHT_OF_CUT : 1.0;
+    return is_cut(alpha, factor, cutoff) ? WEIGHT_OF_CUT : 1.0;
 }
 
 #endif

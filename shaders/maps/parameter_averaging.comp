@@ -33,7 +33,7 @@ void main() {
                                weight_of_point(point, constants.alpha, constants.cutoff);
                 float factor = width_at(point);
                 float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
-                mean += weight * vec4(normal_at(point), width);
+                mean += weight * vec4(normal_at(point, constants.alpha, constants.cutoff), width);
                 share += weight;
             }
         }

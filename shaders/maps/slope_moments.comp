@@ -61,7 +61,8 @@ void main() {
                 vec2 point = map_point(2 * position + ivec2(x, y), i, size);
                 float weight = row_weights[y] * column_weights[x] / float(POINTS) *
                                weight_of_point(point, constants.alpha, constants.cutoff);
-                add_point(sums, normal_at(point), width_at(point), weight);
+                vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
+                add_point(sums, normal, width_at(point), weight);
             }
         }
     }

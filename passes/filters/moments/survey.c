@@ -47,9 +47,19 @@ static void place_row(const float *x, const float *y, const float *z, uint32_t c
     }
 }
 
+/// As normal_at in shaders/maps/base_maps.glsl. Where texels are cut in two, those beyond the edge
+/// are interpolated with what is kept.
+static void level_what_is_cut(surveying *s, uint32_t y) {
+    for (uint32_t x = 0; s->mask.image && !s->mask.cuts_texels && x < s->rows->width; x++)
+        for (int axis = 0; axis < 3 && passes_lobe_mask_cuts_texel(&s->mask, x, y); axis++)
+            s->rows->normal[axis][x] = axis == 2;
+}
+
 static void read_row(surveying *s, uint32_t y) {
     const material_rows *rows = s->rows;
     passes_material_row_read(s->rows, y);
+    if (rows->normals)
+        level_what_is_cut(s, y);
     if (rows->normals)
         place_row(rows->normal[0], rows->normal[1], rows->normal[2], rows->width, s->place[0],
                   s->place[1]);

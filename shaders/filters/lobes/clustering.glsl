@@ -61,7 +61,7 @@ void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture
     for (int index = 0; index < POINTS; ++index) {
         vec2 point = map_point(texel, index, size);
         float weight = texel_weight / float(POINTS) * weight_of_point(point, mask.x, mask.y);
-        vec3 normal = normal_at(point);
+        vec3 normal = normal_at(point, mask.x, mask.y);
         if (has_map(MAP_WIDTH))
             base_complements(width_at(point), complements);
         sums.mean.xyz += weight * (to_mixture * normal);

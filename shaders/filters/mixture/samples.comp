@@ -119,7 +119,8 @@ lobe_sums sum_points(sample_points chosen, int i, inout mixture_extremes own) {
             colours_at(point, specular, diffuse);
             specular.rgb /= material.largest_colour;
         }
-        plane_lobe lobe = lobe_in_plane(i, normal_at(point), width_at(point), specular);
+        vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
+        plane_lobe lobe = lobe_in_plane(i, normal, width_at(point), specular);
         // Lobes without mass have a place and a width, too.
         float weight = chosen.weight / float(SAMPLE_POINTS);
         float mass = weight * max(lobe.mass, 1e-20), sharpness = inversesqrt(lobe.variance);

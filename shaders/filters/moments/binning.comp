@@ -87,7 +87,7 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
 
 void add_point(inout bin_sums sums, vec2 point, float weight) {
     weight *= weight_of_point(point, constants.alpha, constants.cutoff);
-    vec3 normal = normal_at(point);
+    vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
     float factor = width_at(point);
     vec4 specular = vec4(0.0);
     vec3 diffuse = vec3(0.0);

@@ -63,6 +63,8 @@ grid_texel stored_texel(uvec2 position) {
     if (MASKED_LOBES)
         texel.weight = weight_of_alpha(finite_or_zero(fetch_texel(base_colour_map, position)).a,
                                        constants.alpha, constants.cutoff);
+    if (!MASK_POINTS && texel.weight < 1.0)
+        texel.normal = vec3(0.0, 0.0, 1.0); // as normal_at
     return texel;
 }
 
@@ -73,7 +75,7 @@ grid_texel read_texel(uvec2 position) {
         return stored_texel(position);
     uint index = hash(position.x + hash(position.y)) % uint(POINTS);
     vec2 point = map_point(ivec2(position), int(index), ivec2(constants.width, constants.height));
-    return grid_texel(normal_at(point), width_at(point),
+    return grid_texel(normal_at(point, constants.alpha, constants.cutoff), width_at(point),
                       weight_of_point(point, constants.alpha, constants.cutoff));
 }
 

@@ -144,6 +144,53 @@ static void sharp_lobes_survive_cancellation(void **state) {
     }
 }
 
+/// Slopes and their squares of a map of which a mask keeps every third texel, those in the holes
+/// being `x`, `y`, `z` as stored.
+static float *moments_beside_holes(fixture *f, float x, float y, float z, size_t *count) {
+    enum { SIDE = 12 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    lobe_image normals = random_normal_map(SIDE, SIDE, 0.05, 171);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_UNORM, SIDE, SIDE);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        float *normal = (float *)normals.texels + (size_t)4 * i;
+        ((unsigned char *)colours.texels)[(size_t)4 * i + 3] = i % 3 ? 0 : 255;
+        if (i % 3) {
+            normal[0] = x;
+            normal[1] = y;
+            normal[2] = z;
+        }
+    }
+    material.normal_map = scene_add_map(scene, normals);
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.normal_map.nearest = material.base_colour_map.nearest = true;
+    material.alpha_mask = true;
+    scene_end_with_square(scene, &material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "lean", (const char *[]){"storage=float32", NULL});
+    const reduced_map map =
+        passes_lobe_map(&run.context, 0, &passes_slope_moments, LOBE_FORMAT_RGBA32_FLOAT);
+    float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA32_FLOAT);
+    *count = passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT) / sizeof *found;
+    pass_run_end(&run);
+    lobe_scene_destroy(&scene);
+    return found;
+}
+
+/// However steep normals are in the holes of a mask, nothing of them is left.
+static void holes_are_level(void **state) {
+    size_t count;
+    float *level = moments_beside_holes(*state, 0.5f, 0.5f, 1, &count);
+    float *black = moments_beside_holes(*state, 0, 0, 0, &count);
+    for (size_t i = 0; i < count; i++)
+        if (level[i] != black[i])
+            fail_msg("number %zu: %g beside level holes, %g beside steep ones", i, (double)level[i],
+                     (double)black[i]);
+    free(level);
+    free(black);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(odd_sizes_are_averaged_exactly),
@@ -151,6 +198,7 @@ int main(void) {
         cmocka_unit_test(tilted_lobes_give_their_own_slopes),
         cmocka_unit_test(steep_normals_stay_finite),
         cmocka_unit_test(sharp_lobes_survive_cancellation),
+        cmocka_unit_test(holes_are_level),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
