@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
+
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
 #include "scenes/scene/scene.h"
@@ -381,6 +383,7 @@ static void surfaces_do_not_jump(void **state) {
 }
 
 static void transforms_displace_outwards(void **state) {
+    only_in_long_runs();
     fixture *f = *state;
     const float scales[][3] = {{1, 1, 1}, {-1, 1, 1}, {-1e-4f, 1e-4f, 1e-4f}, {1e4f, 1e4f, 1e4f}};
     double covered[4];
@@ -473,6 +476,7 @@ static void geometry_has_a_limit(void **state) {
 
 /// Nor does the distance of vertices jump where there is no room, while the camera climbs.
 static void the_limit_does_not_jump(void **state) {
+    only_in_long_runs();
     enum { STEPS = 15 };
     fixture *f = *state;
     double last = NAN;

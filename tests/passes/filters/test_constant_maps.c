@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -100,7 +101,8 @@ static void check_base(fixture *f, const lobe_material *material, const char *wh
     expectation expected = {what, base, leans, draw_base(f, "direct", base),
                             draw_base(f, "direct", "base=lobe")};
     assert_true(largest_value(&expected.exact.radiance) > 0.01);
-    for (size_t i = 0; i < lobe_filter_count(); i++)
+    const size_t first = (size_t)material->distribution + material->lobe_count;
+    for (size_t i = long_runs() ? 0 : first % 3; i < lobe_filter_count(); i += long_runs() ? 1 : 3)
         check_filter(f, lobe_filter_name(lobe_filter_get(i)), material, &expected);
     lobe_frame_free(&expected.exact);
     lobe_frame_free(&expected.lobe);

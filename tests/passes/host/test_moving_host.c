@@ -13,10 +13,11 @@
 #include <string.h>
 
 #include "tests/engine/support/vulkan_faults.h"
+#include "tests/long_runs.h"
 
 enum { WIDTH = 40, HEIGHT = 25 };
 
-static uint32_t frames = 300;
+static uint32_t frames;
 
 static float phase_of(uint32_t frame) {
     return 0.1f * (float)(frame % 64);
@@ -203,6 +204,7 @@ static void memory_stays(void **state) {
 }
 
 int main(int count, char **arguments) {
+    frames = long_runs() ? 300 : 120;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_stays),
         cmocka_unit_test(frames_are_submitted_once_and_waited_for_never),

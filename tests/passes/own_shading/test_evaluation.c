@@ -14,6 +14,7 @@
 #include "evaluation_lean.h"
 #include "evaluation_moments.h"
 #include "tests/engine/support/host_device.h"
+#include "tests/long_runs.h"
 #include "tests/passes/own_shading/host_evaluation.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -195,7 +196,7 @@ static void encodings_reach_the_hosts_shader(void **state) {
     (void)state;
     static const float usual[] = {0.65f, 0.3f, 0.9330127f, 1}, signed_xy[] = {0.3f, -0.4f, 0, 0};
     static const VkFormat formats[] = {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SNORM};
-    for (int i = 0; i < 4; i++) {
+    for (int i = !long_runs(); i < (long_runs() ? 4 : 3); i++) {
         subject s;
         host_evaluation e = {0}, uploaded = {0};
         result results[POINTS], expected[POINTS];

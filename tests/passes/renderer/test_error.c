@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
 #include "tests/passes/support/picture.h"
 
 enum { WIDTH = 160, HEIGHT = 90, MOST_FILTERS = 16 };
@@ -194,6 +195,7 @@ static void checkerboard_is_within_bounds(void **state) {
 
 /// Widths again, of silk and gold, in threads of different roundness.
 static void pillow_is_within_bounds(void **state) {
+    only_in_long_runs();
     static const error_bounds bounds = {
         "pillow",
         64,

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
@@ -313,6 +314,8 @@ static void light_and_viewer_may_change_places(void **state) {
     static const double flat[3] = {0, 0, 1}, tilted[3] = {0.28, 0, 0.96};
     for (int distribution = 0; distribution < 4; distribution++) {
         for (size_t i = 0; i < lobe_filter_count(); i++) {
+            if (!long_runs() && (i + (size_t)distribution) % 4 != 0)
+                continue;
             const char *filter = lobe_filter_name(lobe_filter_get(i));
             lobe_material material = microfacet_material((lobe_distribution)distribution, 0.5, 0.5);
             check_reciprocity(*state, &material, filter, flat);

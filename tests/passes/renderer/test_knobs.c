@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "passes/context/knob_values.h"
+#include "tests/long_runs.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -75,7 +76,8 @@ static void draw_knob(fixture *f, size_t filter_index, const filter_knob *knob_f
     const lobe_knob *knob = &knob_feed->description;
     const bool ends = knob_feed->feeds.route == KNOB_HOST && !knob_feed->decides_slots;
     const size_t sharing = users(lobe_filter_count(), knob_feed);
-    knob_turns turns = {.every = sharing < 5 ? sharing : 5, .next = users(filter_index, knob_feed)};
+    knob_turns turns = {.every = sharing < 5 || !long_runs() ? sharing : 5,
+                        .next = users(filter_index, knob_feed)};
     char assignment[128];
     for (size_t i = 0; knob->choices && knob->choices[i]; i++) {
         if ((double)i == knob->initial || (ends && i > 0 && knob->choices[i + 1]))

@@ -298,4 +298,5 @@ if __name__ == "__main__":
         test_the_least_error_within_a_budget, test_another_size_is_scaled, test_nothing_fits,
         test_a_sweep_of_something_else_is_refused, test_a_broken_sweep_is_refused,
         test_a_calibration_that_nothing_meets, test_options_that_do_not_go_together,
-        test_limits_that_are_none)))
+        test_limits_that_are_none),
+        long=[test_a_calibration_measures_what_is_drawn]))

@@ -123,4 +123,5 @@ def test_examples_say_what_is_wrong():
 if __name__ == "__main__":
     sys.exit(tap.run(globals(), under_sanitizers=(
         test_host_device_makes_no_mistakes, test_own_pass_draws_outlines,
-        test_own_shading_has_many_materials, test_examples_say_what_is_wrong)))
+        test_own_shading_has_many_materials, test_examples_say_what_is_wrong),
+        long=[test_own_shading_has_an_environment]))

@@ -384,4 +384,4 @@ def test_cmake_refuses_what_is_not_installed():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), long=[test_hosts_with_vulkan_of_their_own]))

@@ -460,4 +460,5 @@ if __name__ == "__main__":
         test_tables_are_made_from_json, test_interrupted_in_the_first_scene,
         test_resuming_measures_more_scenes_and_skipped_ones,
         test_resuming_refuses_other_measurements, test_resuming_from_a_broken_file_is_refused,
-        test_options_that_do_not_go_together, test_a_folder_for_pictures_that_cannot_be)))
+        test_options_that_do_not_go_together, test_a_folder_for_pictures_that_cannot_be),
+        long=[test_interrupted_and_resumed_equals_undisturbed]))

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "tests/long_runs.h"
+
 #include "tests/passes/filters/displaced/relief_plane.h"
 #include "tests/passes/filters/displaced/relief_waves.h"
 #include "tests/passes/support/slope_plane.h"
@@ -110,6 +112,7 @@ static void valleys_reflect_their_closed_form(void **state) {
 /// Nor does any pixel of white reliefs reflect more or less, whether it sees a part of a facet or
 /// many.
 static void each_pixel_of_white_reliefs_reflects_all_light(void **state) {
+    only_in_long_runs();
     static const struct {
         double angle, tiles; ///< of four texels a pixel each
         relief_height height;
@@ -182,6 +185,7 @@ static lobe_image white_map(void) {
 /// However badly functions of low degree describe a relief: no facet reflects more than all of a
 /// sun's or a sky's light, nor gets more from others.
 static void no_pixel_of_spires_is_brighter_than_white_facets(void **state) {
+    only_in_long_runs();
     const double sun[3] = {0.48, 0.64, 0.6};
     double outgoing[3];
     slope_plane_direction(70, 0.7, outgoing);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
+
 #include "tests/passes/filters/displaced/kept_reliefs.h"
 #include "tests/passes/filters/displaced/relief_plane.h"
 #include "tests/passes/filters/displaced/relief_waves.h"
@@ -193,6 +195,7 @@ static double error_of_metal(fixture *f, const char *setting) {
 /// White metal. Bounds are a fifth above what was measured: 0.051 of what it mirrors once, and
 /// 0.162, as the rest is taken for diffuse light.
 static void metal_is_close_to_the_reference(void **state) {
+    only_in_long_runs();
     const double once = error_of_metal(*state, "bounces=1"), all = error_of_metal(*state, NULL);
     if (!(once <= 0.061 && all <= 0.195))
         fail_msg("once %.4f, all %.4f", once, all);
@@ -212,6 +215,7 @@ static void pictures_are_close_to_the_reference(void **state) {
 
 /// Of odd sizes and of one texel; whatever the scale.
 static void odd_maps_are_finite(void **state) {
+    only_in_long_runs();
     static const uint32_t sizes[][2] = {{1, 1}, {1, 9}, {7, 5}, {3, 64}};
     double outgoing[3], incoming[3];
     slope_plane_direction(50, 0.3, outgoing);

@@ -9,6 +9,8 @@
 #include <lobe/fitting.h>
 #include <lobe/vulkan.h>
 
+#include "tests/long_runs.h"
+
 #include "tests/engine/support/log_recorder.h"
 #include "tests/engine/support/temporary_folder.h"
 #include "tests/passes/support/fixture.h"
@@ -301,6 +303,7 @@ static void parts_are_drawn_when_complete(void **state) {
 /// In rows, so that no part takes long: here all levels of texels of 4 to 32 texels of the map, in
 /// two parts each.
 static void large_levels_are_made_in_parts(void **state) {
+    only_in_long_runs();
     enum { LARGE = 1024, LARGE_PARTS = 1 + 5 + 4 * 2 + 1 };
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.7, 1);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/long_runs.h"
+
 #include "scenes/scene/scene.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -332,7 +334,7 @@ static double mean_radiance(const lobe_image *image) {
 static void grooves_shadow_each_other(void **state) {
     fixture *f = *state;
     static const double elevations[] = {20, 35, 60};
-    for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i++) {
+    for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i += long_runs() ? 1 : 2) {
         const double angle = elevations[i] * M_PI / 180;
         lobe_scene *scene = groove_scene((double[]){cos(angle), sin(angle), 0});
         picture_request request = {.filter = "reference",
@@ -419,7 +421,7 @@ static double light_that_arrives(const double towards[3]) {
 static void shadows_of_rough_relief_converge(void **state) {
     fixture *f = *state;
     static const double elevations[] = {12, 30};
-    for (size_t i = 0; i < sizeof elevations / sizeof *elevations; i++) {
+    for (size_t i = !long_runs(); i < sizeof elevations / sizeof *elevations; i++) {
         const double angle = elevations[i] * M_PI / 180;
         const double towards[3] = {cos(angle) * 0.8, sin(angle), cos(angle) * 0.6};
         static const char *const sizes[] = {NULL, "shadows=512", "shadows=1024"};
