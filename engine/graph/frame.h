@@ -42,6 +42,7 @@ typedef struct engine_graph_resource {
     bool cube;      ///< some shader reads it as a cube
     bool shared;    ///< other graphs may have its content
     bool permanent; ///< kept as long as the graph
+    bool evolves;   ///< see lobe_buffer_description
     const lobe_texture *texture;
     const lobe_buffer *buffer;
     const lobe_vulkan_image *host;         ///< copy in the arena

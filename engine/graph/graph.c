@@ -23,6 +23,7 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
                               "render graph: out of memory");
     created->device = created->kept.uploads.device = device;
     created->kept.uploads.number = engine_device_stamp(device);
+    created->frame.dependencies.number = created->kept.uploads.number;
     created->frame.arena.allocator = created->frame.dependencies.scratch.allocator = allocator;
     created->frame.nothing = (lobe_pass){.graph = created, .name = "(none)"};
     lobe_result result = engine_graph_create_flights(created);

@@ -176,6 +176,7 @@ static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource,
                                              .levels = resource->levels,
                                              .layers = resource->layers,
                                              .retained = retained,
+                                             .evolves = resource->evolves,
                                              .rests = resource->shared,
                                              .after = at_rest,
                                              .identity = identity_of(resource)};
@@ -229,8 +230,11 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
                         description->size, (unsigned long long)limit);
     if (graph->frame.result != LOBE_OK)
         return (lobe_resource){0};
-    engine_graph_resource resource = {
-        .name = name, .layers = 1, .levels = 1, .size = description->size};
+    engine_graph_resource resource = {.name = name,
+                                      .layers = 1,
+                                      .levels = 1,
+                                      .size = description->size,
+                                      .evolves = description->retained && description->evolves};
     return declare(graph, &resource, description->retained);
 }
 

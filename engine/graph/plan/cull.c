@@ -13,6 +13,20 @@ static bool reads(const engine_dependency_access *access) {
     return access->kind != ENGINE_ACCESS_WRITE;
 }
 
+/// Of one that modifies what evolves, the graph's own number: what it leaves depends on frames of
+/// this graph.
+static engine_stamp stamp_read(const engine_dependency_graph *graph,
+                               const engine_dependency_access *access, engine_stamp stamp) {
+    if (access->kind == ENGINE_ACCESS_MODIFY && graph->resources[access->resource].evolves)
+        return engine_stamp_mix(stamp, graph->number);
+    for (uint32_t s = 0; s < engine_access_size(access); s++)
+        stamp = engine_stamp_mix(
+            stamp, engine_dependency_content(graph, engine_access_source(graph, access, s),
+                                             access->resource,
+                                             engine_access_subresource(graph, access, s)));
+    return stamp;
+}
+
 /// In topological order, so that the stamps of everything a pass reads are known.
 static void stamp_passes(engine_dependency_graph *graph) {
     for (uint32_t i = 0; i < graph->order_count; i++) {
@@ -24,11 +38,8 @@ static void stamp_passes(engine_dependency_graph *graph) {
             stamp = engine_stamp_mix(stamp, access->kind);
             stamp = engine_stamp_bytes(stamp, &access->range, sizeof access->range);
             stamp = engine_stamp_mix(stamp, graph->resources[access->resource].identity);
-            for (uint32_t s = 0; reads(access) && s < engine_access_size(access); s++)
-                stamp = engine_stamp_mix(
-                    stamp, engine_dependency_content(graph, engine_access_source(graph, access, s),
-                                                     access->resource,
-                                                     engine_access_subresource(graph, access, s)));
+            if (reads(access))
+                stamp = stamp_read(graph, access, stamp);
         }
         pass->stamp = stamp;
     }

@@ -79,6 +79,7 @@ typedef struct engine_dependency_resource {
     uint32_t levels, layers;
     bool imported; ///< has content from the start and is never written
     bool retained; ///< its content is kept for the next frame
+    bool evolves;  ///< what a pass finds that modifies it does not count as a change
     bool borrowed; ///< belongs to the host: passes may write it; it is returned after the frame
     bool rests;    ///< what a frame uses of it is in the state `after` between frames
     /// Borrowed: its uses before and after the frame. The layouts are LENT (UNDEFINED: it has no
@@ -143,6 +144,7 @@ typedef struct engine_dependency_barrier {
 } engine_dependency_barrier;
 
 typedef struct engine_dependency_graph {
+    engine_stamp number; ///< that no other graph has
     engine_dependency_resource *resources;
     engine_dependency_pass *passes;
     engine_dependency_access *accesses;  ///< in order of declaration

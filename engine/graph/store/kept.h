@@ -46,6 +46,7 @@ typedef struct engine_graph_retained {
     bool lent;              ///< other graphs may find it or hold it: nobody writes it
     bool separate;          ///< was invalidated: this graph's own from then on
     bool permanent;         ///< kept as long as the graph
+    bool evolves;           ///< see lobe_buffer_description
     bool exported;          ///< the host may have it in descriptors of its own
     engine_graph_object object;
     engine_allocation allocation;

@@ -137,6 +137,8 @@ static void invalidate(const lobe_graph *graph, engine_graph_retained *kept) {
     if (kept->permanent)
         return;
     kept->separate = true;
+    if (kept->evolves)
+        clear_content(kept);
     for (uint32_t i = 0; i < kept->subresource_count; i++)
         if (kept->stamps[i] != ENGINE_STAMP_NONE)
             kept->stamps[i] = engine_stamp_mix(kept->stamps[i], engine_device_stamp(graph->device));
@@ -157,6 +159,14 @@ void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix) {
             invalidate(graph, kept);
 }
 
+void lobe_graph_forget_buffer(lobe_graph *graph, const char *name) {
+    if (!graph || !name)
+        return;
+    for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
+        if (strcmp(kept->name, name) == 0 && kept->object.buffer)
+            clear_content(kept);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Creation
 
@@ -175,7 +185,8 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
         .stamps = lobe_allocate(allocator, subresources, sizeof *kept->stamps),
         .layouts = lobe_allocate(allocator, subresources, sizeof *kept->layouts),
         .declared = true,
-        .permanent = resource->permanent};
+        .permanent = resource->permanent,
+        .evolves = resource->evolves};
     if (kept->name && kept->stamps && kept->layouts)
         return kept;
     lobe_release(kept->name);

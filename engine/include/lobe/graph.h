@@ -106,6 +106,11 @@ typedef struct lobe_buffer_description {
     const char *name;
     size_t size; ///< bytes, above 0
     bool retained;
+    /// Of a retained buffer: what a pass that modifies it leaves for the next time, as a fit that
+    /// follows what it is fitted to. What the pass finds there does not count as a change: it runs
+    /// when something else that it reads has changed. Passes of other graphs do not share what is
+    /// made with it. Marked as out of date, it is empty.
+    bool evolves;
 } lobe_buffer_description;
 
 /// Declares an image or buffer that passes of this frame write. It has no content before that,
@@ -419,6 +424,8 @@ LOBE_API const void *lobe_graph_late_data(const lobe_graph *graph, uint64_t numb
 LOBE_API void lobe_graph_invalidate(lobe_graph *graph);
 /// The same for all retained resources whose names do not begin with `prefix`.
 LOBE_API void lobe_graph_invalidate_except(lobe_graph *graph, const char *prefix);
+/// Empties the retained buffer of this name, if there is one, before the frame declares it.
+LOBE_API void lobe_graph_forget_buffer(lobe_graph *graph, const char *name);
 
 // ---------------------------------------------------------------------------------------------
 // What happened

@@ -323,6 +323,61 @@ static void a_sum_needs_a_start(void **state) {
     GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'accumulate'", "'sum'");
 }
 
+/// "add" adds an upload to a buffer that evolves, and "look" adds 1 to it, into a retained buffer.
+/// Returns that.
+static float run_evolving(graph_fixture *fixture, float number) {
+    float numbers[COUNT] = {0, number};
+    lobe_graph_begin(fixture->graph);
+    const lobe_resource source =
+        lobe_graph_upload(fixture->graph, "source", numbers, sizeof numbers);
+    lobe_resource sum = lobe_graph_buffer(
+        fixture->graph, &(lobe_buffer_description){
+                            .name = "sum", .size = BYTES, .retained = true, .evolves = true});
+    if (!lobe_graph_has_content(fixture->graph, sum)) {
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "empty");
+        sum = lobe_pass_fill(pass, sum, (lobe_range){0}, (const float[4]){0});
+    }
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "add");
+    lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = source});
+    sum = lobe_pass_modify(pass, &(lobe_binding){.name = "sum_block", .resource = sum});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "graph_add_up.comp", .threads = {COUNT, 1, 1}});
+    const lobe_resource result =
+        graph_fixture_add(fixture, "look", sum, retained(fixture, "result", BYTES), 1.0f, COUNT);
+    lobe_graph_read_back(fixture->graph, result, (lobe_range){0});
+    graph_fixture_execute(fixture);
+    const float *data = lobe_graph_data(fixture->graph, result, NULL);
+    assert_non_null(data);
+    return data[1];
+}
+
+static void what_evolves_goes_on_when_something_else_changes(void **state) {
+    graph_fixture *fixture = *state;
+    assert_true(run_evolving(fixture, 2) == 3);
+    for (int i = 0; i < 3; i++) {
+        assert_true(run_evolving(fixture, 2) == 3);
+        assert_int_equal(graph_fixture_state(fixture, "add"), LOBE_PASS_SKIPPED);
+        assert_int_equal(graph_fixture_state(fixture, "look"), LOBE_PASS_SKIPPED);
+    }
+    assert_true(run_evolving(fixture, 5) == 8);
+    assert_true(run_evolving(fixture, 5) == 8);
+    assert_true(run_evolving(fixture, 2) == 10);
+}
+
+static void what_evolves_may_begin_again(void **state) {
+    graph_fixture *fixture = *state;
+    assert_true(run_evolving(fixture, 2) == 3);
+    lobe_graph_forget_buffer(fixture->graph, "result of another");
+    assert_true(run_evolving(fixture, 4) == 7);
+    lobe_graph_forget_buffer(fixture->graph, "sum");
+    // Until a pass needs it.
+    assert_true(run_evolving(fixture, 4) == 7);
+    assert_true(run_evolving(fixture, 5) == 6);
+    assert_true(run_evolving(fixture, 6) == 12);
+    lobe_graph_invalidate(fixture->graph);
+    assert_true(run_evolving(fixture, 6) == 7);
+}
+
 static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
     graph_fixture *fixture = *state;
     for (int i = 0; i < 2; i++) {
@@ -407,6 +462,8 @@ int main(void) {
         TEST(overwritten_content_is_made_again),
         TEST(sums_run_over_frames),
         TEST(a_sum_needs_a_start),
+        TEST(what_evolves_goes_on_when_something_else_changes),
+        TEST(what_evolves_may_begin_again),
         TEST(a_kept_pass_is_skipped_while_its_results_are_valid),
         TEST(a_failed_frame_changes_nothing),
         TEST(raster_passes_are_compared),

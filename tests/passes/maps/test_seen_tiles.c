@@ -70,9 +70,11 @@ static void find_needed(tile_case *c) {
 static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content, bool forgets) {
     lobe_graph *graph = f->graph;
     lobe_graph_begin(graph);
-    const lobe_buffer_description states = {"states", c->tiles * sizeof(uint32_t), true};
+    const lobe_buffer_description states = {
+        .name = "states", .size = c->tiles * sizeof(uint32_t), .retained = true};
     const lobe_buffer_description listed = {
-        "list", (MAP_TILE_LEVELS * MAP_TILE_RECORD + 2 * c->tiles) * sizeof(uint32_t), false};
+        .name = "list",
+        .size = (MAP_TILE_LEVELS * MAP_TILE_RECORD + 2 * c->tiles) * sizeof(uint32_t)};
     const struct tile_list_constants constants = {.width = c->levels[0].width,
                                                   .height = c->levels[0].height,
                                                   .levels = c->level_count,

@@ -70,6 +70,13 @@ static lobe_resource writes(uint32_t pass, lobe_resource resource) {
     return resource;
 }
 
+static lobe_resource modifies(uint32_t pass, lobe_resource resource) {
+    assert_int_not_equal(
+        access_of(pass, &resource, (lobe_range){0}, ENGINE_ACCESS_MODIFY, written_in_a),
+        ENGINE_DEPENDENCY_NONE);
+    return resource;
+}
+
 static lobe_resource writes_level(uint32_t pass, lobe_resource resource, uint32_t level) {
     assert_int_not_equal(
         access_of(pass, &resource, (lobe_range){level, 1, 0, 0}, ENGINE_ACCESS_WRITE, written_in_a),
@@ -542,6 +549,28 @@ static void valid_content_stops_demand(void **state) {
     assert_running("half look");
 }
 
+/// The stamp of a pass that modifies a retained resource.
+static engine_stamp stamp_of_modification(bool evolves, engine_stamp found, engine_stamp number) {
+    engine_dependency_graph_reset(&graph);
+    graph.number = number;
+    lobe_resource kept = resource_of((engine_dependency_resource){
+        .name = "kept", .retained = true, .evolves = evolves, .recorded = &found});
+    const uint32_t a = pass_of("a");
+    kept = modifies(a, kept);
+    wants(kept);
+    compile();
+    graph.number = 0;
+    return graph.passes[a].stamp;
+}
+
+static void what_evolves_counts_by_its_graph(void **state) {
+    (void)state;
+    assert_true(stamp_of_modification(false, 5, 1) == stamp_of_modification(false, 5, 2));
+    assert_true(stamp_of_modification(false, 5, 1) != stamp_of_modification(false, 6, 1));
+    assert_true(stamp_of_modification(true, 5, 1) == stamp_of_modification(true, 6, 1));
+    assert_true(stamp_of_modification(true, 5, 1) != stamp_of_modification(true, 5, 2));
+}
+
 static void ranges_kinds_and_shapes_are_part_of_the_stamp(void **state) {
     (void)state;
     engine_stamp stamps[6];
@@ -791,6 +820,7 @@ int main(void) {
         TEST(overwritten_content_is_not_wanted),
         TEST(kept_passes_run),
         TEST(valid_content_stops_demand),
+        TEST(what_evolves_counts_by_its_graph),
         TEST(ranges_kinds_and_shapes_are_part_of_the_stamp),
         TEST(lifetimes_span_first_to_last_use),
         TEST(a_first_write_drops_former_content),

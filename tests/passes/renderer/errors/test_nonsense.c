@@ -233,6 +233,7 @@ static void graphs_that_are_none(void **state) {
     assert_null(lobe_graph_late_data(NULL, 1, NULL));
     lobe_graph_invalidate(NULL);
     lobe_graph_invalidate_except(NULL, NULL);
+    lobe_graph_forget_buffer(NULL, NULL);
     assert_null(lobe_graph_describe(NULL));
     assert_null(lobe_graph_dump_text(NULL));
     assert_null(lobe_graph_dump_graphviz(NULL));
@@ -295,6 +296,7 @@ static void declarations_without_arguments(void **state) {
     REFUSED(f, LOBE_ERROR_INVALID_ARGUMENT, "lobe_graph_submit", lobe_graph_submit(f->graph, NULL));
     lobe_graph_begin(f->graph);
     lobe_graph_invalidate_except(f->graph, NULL);
+    lobe_graph_forget_buffer(f->graph, NULL);
 }
 
 static void profiles(void **state) {
