@@ -1,6 +1,7 @@
 #ifndef INTERFACE_MOMENT_REFIT_H
 #define INTERFACE_MOMENT_REFIT_H
 
+#include "moment_bins.h"
 #include "types.h"
 
 // What the passes moment_cell_survey and moment_refit exchange, when texels of a material have
@@ -47,11 +48,58 @@ struct refit_constants {
     float points;   // that a lobe counts as; see lib/lobe/bin_membership.glsl
     uint bins;      // not a specialisation constant: one pipeline serves most materials
     uint has_first; // 0: there are no first bins to start from
+    uint follows;   // 0: nothing of earlier fits counts
 };
-INTERFACE_SIZE(refit_constants, 20)
+INTERFACE_SIZE(refit_constants, 24)
 INTERFACE_OFFSET(refit_constants, lobes, 4)
 INTERFACE_OFFSET(refit_constants, points, 8)
 INTERFACE_OFFSET(refit_constants, bins, 12)
 INTERFACE_OFFSET(refit_constants, has_first, 16)
+INTERFACE_OFFSET(refit_constants, follows, 20)
+
+// A bin as a Gaussian.
+struct fit_gaussian {
+    float4 place;  // x, y: mean; z: part of all lobes
+    float4 spread; // covariance: xx, yy, xy
+};
+INTERFACE_SIZE(fit_gaussian, 32)
+INTERFACE_OFFSET(fit_gaussian, spread, 16)
+#ifndef VULKAN
+typedef struct fit_gaussian fit_gaussian;
+#endif
+
+// What a fit leaves for the next one of the same material.
+struct fit_state {
+    fit_gaussian shown[MOMENT_MAXIMUM_BINS]; // the bins
+    fit_gaussian other[MOMENT_MAXIMUM_BINS]; // what the search for better ones is at
+    fit_gaussian old[MOMENT_MAXIMUM_BINS];   // what was shown before it became the other
+    uint bins;                               // their number; 0: there has been no fit
+    uint step;                               // of the search, see refit.comp, its rounds so far
+    uint round;
+    uint count;             // and its bins
+    float likelihood;       // of the lobes under the bins that are followed, and
+    float other_likelihood; // under those of the search
+    float points;           // that a lobe counted as
+    float reach;            // as in `progress` in refit.comp
+    float middle_x;
+    float middle_y;
+    float narrowest;
+    float broadest;
+};
+INTERFACE_SIZE(fit_state, 624)
+INTERFACE_OFFSET(fit_state, other, 192)
+INTERFACE_OFFSET(fit_state, old, 384)
+INTERFACE_OFFSET(fit_state, bins, 576)
+INTERFACE_OFFSET(fit_state, step, 580)
+INTERFACE_OFFSET(fit_state, round, 584)
+INTERFACE_OFFSET(fit_state, count, 588)
+INTERFACE_OFFSET(fit_state, likelihood, 592)
+INTERFACE_OFFSET(fit_state, other_likelihood, 596)
+INTERFACE_OFFSET(fit_state, points, 600)
+INTERFACE_OFFSET(fit_state, reach, 604)
+INTERFACE_OFFSET(fit_state, middle_x, 608)
+INTERFACE_OFFSET(fit_state, middle_y, 612)
+INTERFACE_OFFSET(fit_state, narrowest, 616)
+INTERFACE_OFFSET(fit_state, broadest, 620)
 
 #endif

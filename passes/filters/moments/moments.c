@@ -18,6 +18,7 @@
 
 static const char *const partitions[] = {"fitted", "hats", "cap", NULL};
 static const char *const bin_numbers[] = {"auto", "1", "2", "3", "4", "5", "6", NULL};
+static const char *const refits[] = {"follow", "anew", NULL};
 static const char *const colours[] = {"auto", "mean", "bins", NULL};
 
 static const filter_knob partition_knob = {
@@ -51,6 +52,15 @@ static const filter_knob colour_knob = {
          .sweep = "mean,bins"},
     .decides_slots = true,
 };
+static const filter_knob refit_knob = {
+    .description = {.name = "refit",
+                    .summary =
+                        "where texels change, bins follow from those of the frames before, "
+                        "without jumps; or each fit is anew, of its own frame's texels alone",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = refits},
+};
 static const filter_knob frames_of_fit_knob = {
     .description = {.name = "frames_of_fit",
                     .summary = "how many frames bins serve where texels change: each fit is also "
@@ -64,6 +74,7 @@ static const filter_knob *const knobs[] = {
     &partition_knob,
     &bins_knob,
     &colour_knob,
+    &refit_knob,
     &frames_of_fit_knob,
     &passes_knob_least_share,
     &passes_knob_probes,
@@ -198,6 +209,8 @@ static lobe_result prepare(const filter_context *context, uint32_t index, void *
     lobe_release(prepared);
     *slot = NULL;
     const lobe_result result = prepare_partition(context, index, slot);
+    if (!is_dry(context))
+        passes_moment_refit_forget(context->graph, index);
     if (*slot)
         ((prepared_moments *)*slot)->moves = moves;
     return result;
@@ -230,7 +243,9 @@ static lobe_resource bins_of(const filter_context *context, uint32_t material,
     const moment_partition *partition = &prepared->partition;
     // Where nothing is drawn, the pipelines of a fit are wanted.
     const refit_request request = {.bright_texels = prepared->bright_texels,
-                                   .keeps = prepared->age > 0 && !is_dry(context)};
+                                   .keeps = prepared->age > 0 && !is_dry(context),
+                                   .follows = passes_knob_choice(context, &refit_knob) == 0 &&
+                                              partition->kind == PARTITION_FITTED};
     if (needs_refit(context->scene, &context->scene->materials[material], prepared))
         return passes_moment_refit(context, material, partition, &request);
     return lobe_graph_upload(context->graph, "bins", &partition->constants,

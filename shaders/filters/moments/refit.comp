@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Fits the bins of a material to other texels: expectation maximisation over the sample that
-// moment_cell_survey drew, from the bins that were fitted to the material's first texels, so that a
-// bin stays the same bin from fit to fit. If other starts lead to a better fit, the best of those
-// is taken; where the host could not read the first texels, there are only those. Then the units of
+// moment_cell_survey drew, from those of the fit before, or anew from the bins that were fitted to
+// the material's first texels. If other starts then lead to a better fit, the best of those is
+// taken; where the host could not read the first texels, there are only those. Last the units of
 // the bins' moments. In C for a material's first texels: passes/filters/moments/partition.h. One
 // group, all sums in a fixed order.
 //
@@ -32,6 +32,9 @@ layout(set = 0, binding = 19, std430) writeonly buffer binning_block {
     moment_binning_constants binning;
 };
 
+// Each thread reads and writes its own bin's; the rest is read by all, before the first writes it.
+layout(set = 0, binding = 20, std430) buffer state_block { fit_state state; };
+
 layout(push_constant) uniform constants_block { refit_constants constants; };
 
 // Of a fit; more do not change a picture. And between one added bin and the next.
@@ -41,8 +44,17 @@ const int ROUNDS = 30, ROUNDS_OF_ADDED = 5;
 // is tried after so many, which leaves enough for the range and the last measurement.
 const uint MOST_ITERATIONS = 60000;
 
-// The part of its score by which a fit must be better than that from the first bins.
+// The part of its score by which a fit must be better than that from the first bins, or than the
+// bins that are shown.
 const float GAIN = 0.02;
+
+// From one fit to the next: how many rounds of a search for better bins there are, and in how many
+// fits bins become those.
+const uint ROUNDS_OF_SEARCH = 2, FITS_OF_BLEND = 16;
+
+// Where the logarithm of a point's likelihood under the bins changes by so much from one fit to the
+// next, the texels are others, and nothing of earlier fits counts.
+const float OTHER_TEXELS = 0.5;
 
 // A bin with a smaller part of all lobes starts over.
 const float LEAST_PART = 1e-9;
@@ -54,6 +66,8 @@ const float MARGIN = 1.25;
 shared moment_bin bins[MOMENT_MAXIMUM_BINS];
 shared vec4 gaussians[MOMENT_MAXIMUM_BINS]; // of the bins: covariance (xx, yy, xy), and their part
 shared moment_bin kept_bins[MOMENT_MAXIMUM_BINS];
+shared vec4 kept_gaussians[MOMENT_MAXIMUM_BINS];
+shared fit_gaussian shown[MOMENT_MAXIMUM_BINS]; // where an earlier fit goes on: what comes out
 
 uint thread() {
     return gl_LocalInvocationID.x;
@@ -234,7 +248,9 @@ const uint FROM_FIRST = 0;  // improve the first bins
 const uint GROW = 1;        // improve one bin, and add others
 const uint BY_DISTANCE = 2; // improve bins of equal steps of the distance from the middle
 const uint BY_WIDTH = 3;    // and of the logarithm of the variance
-const uint MEASURE = 4;     // nothing: the numbers of the best of all are wanted
+const uint FOLLOW = 4;      // improve the last fit's bins
+const uint BLEND = 5;       // improve those that a search has found, which the bins become
+const uint MEASURE = 6;     // nothing: the numbers of the best of all are wanted
 
 // Without first bins, adding bins comes first.
 uint first_step() {
@@ -249,6 +265,11 @@ struct progress {
     float kept_score; // of the bins kept
     bool gained;      // those are not from the first bins
     uint iterations;  // of a thread's loops
+    // Where an earlier fit goes on:
+    bool follows;
+    float followed; // likelihood under the bins that are followed
+    float shown_score;
+    uint left;      // rounds of the search in this fit
     // Of all lobes: the middle, how far they are from it, and logarithms of the variance.
     vec2 middle;
     float reach, narrowest, broadest;
@@ -356,6 +377,31 @@ void improve(uint count, uint lost, float total) {
         maximise(thread(), total);
 }
 
+// The thread's bin.
+fit_gaussian own_gaussian() {
+    vec4 own = gaussians[thread()];
+    return fit_gaussian(vec4(bins[thread()].centre.xy, own.w, 0.0), vec4(own.xyz, 0.0));
+}
+
+void set_own_bin(fit_gaussian gaussian) {
+    set_bin(thread(), gaussian.place.z, gaussian.place.xy, gaussian.spread.xyz);
+}
+
+// Those that the host made, and the Gaussians that they are of.
+void take_first_bins() {
+    moment_bin first = first_bins.bins[min(thread(), MOMENT_MAXIMUM_BINS - 1)];
+    float half_points = 0.5 * constants.points;
+    vec3 inverse = first.shape.xyz / half_points;
+    float determinant = max(inverse.x * inverse.y - inverse.z * inverse.z, 1e-16);
+    float part = exp(min(first.centre.z - half_points * log(determinant), 0.0));
+    barrier();
+    if (thread() < MOMENT_MAXIMUM_BINS) {
+        bins[thread()] = first;
+        gaussians[thread()] = vec4(vec3(inverse.yx, -inverse.z) / determinant, part);
+    }
+    barrier();
+}
+
 // ---------------------------------------------------------------------------------------------
 // The units of the bins' moments
 
@@ -393,8 +439,10 @@ vec4 hats_of() {
 // All steps
 
 void keep_bins(inout progress at) {
-    if (thread() < constants.bins)
+    if (thread() < constants.bins) {
         kept_bins[thread()] = bins[thread()];
+        kept_gaussians[thread()] = gaussians[thread()];
+    }
     at.kept_score = at.score;
 }
 
@@ -410,23 +458,49 @@ void measure_whole(inout progress at) {
 void finish(inout progress at) {
     at.step = MEASURE;
     at.count = constants.bins;
-    if (thread() < constants.bins)
+    if (thread() < constants.bins) {
         bins[thread()] = kept_bins[thread()];
+        gaussians[thread()] = kept_gaussians[thread()];
+    }
 }
 
-// The step after a fit of all bins.
-void end_step(inout progress at) {
-    bool first = at.step == first_step();
-    if (first || at.score < at.kept_score * (at.gained ? 1.0 : 1.0 + GAIN)) {
-        at.gained = at.step != FROM_FIRST;
-        keep_bins(at);
-    }
+// From the first bins, or from one; for hats, one that moves to the mean.
+void begin(inout progress at) {
+    at.step = first_step();
+    at.count = PARTITION == PARTITION_FITTED && at.step == FROM_FIRST ? constants.bins : 1;
+    at.round = 0;
+    at.likelihood = at.score = at.kept_score = 0.0;
+    at.gained = false;
+    take_first_bins();
+}
+
+// The step after one of these.
+void next_step(inout progress at) {
     ++at.step;
     if (at.step == BY_WIDTH && !(at.broadest > at.narrowest + 0.2))
         ++at.step;
     if (at.step == GROW)
         at.count = 1;
-    if (at.step == MEASURE || constants.bins == 1)
+}
+
+// The step after a fit of all bins.
+void end_step(inout progress at) {
+    if (at.follows) {
+        if (at.score < at.shown_score * (1.0 + GAIN))
+            at.step = BLEND;
+        else
+            next_step(at);
+        if (at.step == FOLLOW)
+            begin(at);
+        return;
+    }
+    bool first = at.step == first_step();
+    if (first || at.score < at.kept_score * (at.gained ? 1.0 : 1.0 + GAIN)) {
+        at.gained = at.step != FROM_FIRST;
+        keep_bins(at);
+    }
+    next_step(at);
+    if (at.step == FOLLOW || constants.bins == 1)
         finish(at);
 }
 
@@ -465,50 +539,229 @@ uint iterations_of_round(uint count) {
     return count * (lobes * (1 + (count + 2) / 3) + 30 + count);
 }
 
+// ---------------------------------------------------------------------------------------------
+// From one fit to the next
+
+// Bins that follow those of an earlier fit take one round from there, so that what moves slowly
+// does not jump. A search for better ones goes through all steps, a few rounds in each fit. When a
+// step ends with bins that serve the lobes better by a clear margin, the bins that are shown become
+// these in equal parts of the way.
+
+// Whether there are bins of an earlier fit.
+bool knows_earlier() {
+    return PARTITION == PARTITION_FITTED && constants.follows != 0 &&
+           state.bins == constants.bins && state.points == constants.points;
+}
+
+void take_other() {
+    if (thread() < constants.bins)
+        set_own_bin(state.other[thread()]);
+    barrier();
+}
+
+void take_shown() {
+    if (thread() < constants.bins)
+        set_own_bin(shown[thread()]);
+    barrier();
+}
+
+void follow(inout progress at) {
+    at.step = state.step == BLEND ? BLEND : FOLLOW;
+    at.round = at.step == BLEND ? state.round : 0;
+    at.count = constants.bins;
+    at.likelihood = at.followed = state.likelihood;
+    if (thread() < constants.bins)
+        shown[thread()] = state.shown[thread()];
+    if (at.step == BLEND)
+        take_other();
+    else
+        take_shown();
+}
+
+void go_on_with_search(inout progress at) {
+    at.step = state.step;
+    at.round = state.round;
+    at.count = state.count;
+    at.likelihood = state.other_likelihood;
+    at.middle = vec2(state.middle_x, state.middle_y);
+    at.reach = state.reach;
+    at.narrowest = state.narrowest;
+    at.broadest = state.broadest;
+    at.left = ROUNDS_OF_SEARCH;
+    take_other();
+}
+
+// Leaves the search to the next fit.
+void save_search(progress at) {
+    barrier();
+    if (thread() < constants.bins)
+        state.other[thread()] = own_gaussian();
+    if (thread() == 0) {
+        state.step = at.step;
+        state.round = at.round;
+        state.count = at.count;
+        state.other_likelihood = at.likelihood;
+        state.middle_x = at.middle.x;
+        state.middle_y = at.middle.y;
+        state.reach = at.reach;
+        state.narrowest = at.narrowest;
+        state.broadest = at.broadest;
+    }
+    barrier();
+}
+
+void measure_shown(inout progress at) {
+    at.step = MEASURE;
+    at.count = constants.bins;
+    take_shown();
+}
+
+// Gives each bin found the number of one that is shown and near.
+void order_found() {
+    for (uint i = 0; i < constants.bins; ++i) {
+        uint nearest = i;
+        float least = 1e30;
+        for (uint k = i; k < constants.bins; ++k) {
+            vec2 d = bins[k].centre.xy - shown[i].place.xy;
+            float width = sqrt(gaussians[k].x + gaussians[k].y) -
+                          sqrt(shown[i].spread.x + shown[i].spread.y);
+            float square = dot(d, d) + width * width;
+            nearest = square < least ? k : nearest;
+            least = min(least, square);
+        }
+        vec2 place = bins[i].centre.xy;
+        vec4 gaussian = gaussians[i];
+        bins[i].centre.xy = bins[nearest].centre.xy;
+        gaussians[i] = gaussians[nearest];
+        bins[nearest].centre.xy = place;
+        gaussians[nearest] = gaussian;
+    }
+}
+
+void begin_blend(inout progress at) {
+    at.followed = at.likelihood;
+    barrier();
+    if (thread() == 0)
+        order_found();
+    if (thread() < constants.bins)
+        state.old[thread()] = shown[thread()];
+}
+
+// The bins that were found have been improved.
+void blend(inout progress at) {
+    float part = float(at.round) / float(FITS_OF_BLEND);
+    at.followed = at.likelihood;
+    if (thread() < constants.bins) {
+        fit_gaussian old = state.old[thread()], found = own_gaussian();
+        shown[thread()] =
+            fit_gaussian(mix(old.place, found.place, part), mix(old.spread, found.spread, part));
+    }
+    if (at.round == FITS_OF_BLEND)
+        begin(at);
+    save_search(at);
+    measure_shown(at);
+}
+
+void end_round(inout progress at, bool settled) {
+    settled = settled || at.round == (at.count < constants.bins ? ROUNDS_OF_ADDED : ROUNDS);
+    if (at.iterations > MOST_ITERATIONS)
+        finish(at);
+    else if (settled)
+        go_on(at);
+}
+
+// After a round of the search.
+void end_round_of_search(inout progress at, bool settled) {
+    end_round(at, settled);
+    if (at.step == BLEND)
+        begin_blend(at);
+    else if (--at.left > 0)
+        return;
+    save_search(at);
+    measure_shown(at);
+}
+
+void end_following(inout progress at) {
+    at.followed = at.likelihood;
+    at.shown_score = at.score;
+    if (thread() < constants.bins)
+        shown[thread()] = own_gaussian();
+    barrier();
+    if (constants.bins > 1)
+        go_on_with_search(at);
+    else
+        measure_shown(at);
+}
+
 void take_round(inout progress at) {
     float total = total_weight(at.count), former = at.likelihood;
-    uint lost = lost_bin(at.count, total);
+    uint lost = at.step == FOLLOW ? at.count : lost_bin(at.count, total);
     at.likelihood = numbers[0][LIKELIHOOD] / total;
     ++at.round;
     at.iterations += iterations_of_round(at.count);
     bool settled = at.round > 2 && lost == at.count && at.likelihood <= former + 1e-4;
     at.score = score_of(at, total);
     barrier();
+    if ((at.step == FOLLOW || at.step == BLEND) &&
+        abs(at.likelihood - at.followed) > OTHER_TEXELS * constants.points) {
+        at.follows = false;
+        begin(at);
+        return;
+    }
     improve(at.count, lost, total);
     barrier();
-    if (at.iterations > MOST_ITERATIONS)
-        finish(at);
-    else if (settled || at.round == (at.count < constants.bins ? ROUNDS_OF_ADDED : ROUNDS))
-        go_on(at);
+    if (at.step == FOLLOW)
+        end_following(at);
+    else if (at.step == BLEND)
+        blend(at);
+    else if (at.follows)
+        end_round_of_search(at, settled);
+    else
+        end_round(at, settled);
     barrier();
 }
 
-void fit(plane_range range) {
-    bool fitted = PARTITION == PARTITION_FITTED;
+progress fit(plane_range range) {
     progress at;
-    at.step = first_step();
-    // For hats, one that moves to the mean.
-    at.count = fitted && at.step == FROM_FIRST ? constants.bins : 1;
-    at.round = 0;
     at.iterations = 0;
-    at.likelihood = at.score = at.kept_score = 0.0;
-    at.gained = false;
+    at.follows = knows_earlier();
+    if (at.follows)
+        follow(at);
+    else
+        begin(at);
     for (;;) {
         for (uint i = 0; i < at.count; ++i)
             visit(i, at, range);
         if (at.step == MEASURE)
             break;
         take_round(at);
-        if (!fitted)
+        if (PARTITION != PARTITION_FITTED)
             at.step = MEASURE;
+    }
+    return at;
+}
+
+// For the next fit.
+void save_state(progress at) {
+    if (!at.follows) {
+        at.followed = numbers[0][LIKELIHOOD] / total_weight(constants.bins);
+        if (thread() < constants.bins)
+            shown[thread()] = own_gaussian();
+        begin(at);
+        save_search(at);
+    }
+    if (thread() < constants.bins)
+        state.shown[thread()] = shown[thread()];
+    if (thread() == 0) {
+        state.bins = constants.bins;
+        state.points = constants.points;
+        state.likelihood = at.followed;
     }
 }
 
 void main() {
-    if (thread() < MOMENT_MAXIMUM_BINS)
-        bins[thread()] = first_bins.bins[thread()];
     plane_range range = find_range();
-    fit(range);
+    progress at = fit(range);
     vec4 hats = PARTITION == PARTITION_FITTED ? first_bins.hats : hats_of();
     barrier();
     if (thread() < constants.bins) {
@@ -524,4 +777,9 @@ void main() {
         binning.largest = vec4(1.001 * range.heaviest,
                                BRIGHT_TEXELS ? range.brightest : first_bins.largest.y, 0.0, 0.0);
     }
+    barrier();
+    if (PARTITION == PARTITION_FITTED && constants.follows != 0)
+        save_state(at);
+    else if (thread() == 0)
+        state.bins = 0;
 }

@@ -317,6 +317,7 @@ static void render(moving_host *m, const host_image *picture) {
     const lobe_render_target target = {.radiance = &radiance};
     const lobe_render_parameters parameters = {
         .filter = m->filter,
+        .settings = m->settings,
         .host = {.target = &target, .submission = &submission, .frames_in_flight = MOVING_FLIGHT}};
     lobe_frame frame;
     if (lobe_renderer_render(m->renderer, &parameters, &frame) != LOBE_OK)

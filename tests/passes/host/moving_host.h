@@ -26,6 +26,7 @@ typedef struct moving_host {
     lobe_renderer *renderer;
     lobe_scene *scene;
     const lobe_filter *filter;
+    const lobe_settings *settings; ///< NULL: the filter's defaults
     host_image maps[MOVING_MAPS], pictures[MOVING_FLIGHT];
     VkImageView views[MOVING_MAPS];
     VkDescriptorSetLayout set_layout;

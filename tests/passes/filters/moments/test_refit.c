@@ -246,6 +246,110 @@ static void refits_are_the_same_in_every_run(void **state) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Fits that follow others
+
+/// A material whose map changes from frame to frame.
+typedef struct following {
+    fixture *fixture;
+    lobe_scene *scene;
+    pass_run run;
+    moment_partition first;
+    uint32_t width, height;
+} following;
+
+static void follow_from(fixture *f, make_normals first, double amount, following *all) {
+    const partition_request request = {PARTITION_FITTED, 3, BIN_COLOUR_MEAN};
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.2, 0);
+    *all = (following){.fixture = f, .scene = scene_begin(), .width = 16, .height = 16};
+    material.normal_map = scene_add_map(all->scene, first(16, 16, amount));
+    scene_end_with_square(all->scene, &material);
+    pass_run_begin(&all->run, f, all->scene, "moments", (const char *[]){NULL});
+    assert_int_equal(
+        passes_moment_partition_make(all->run.scene, 0, &request, &f->host, &all->first), LOBE_OK);
+    passes_moment_refit_forget(f->graph, 0);
+}
+
+/// Fits the bins to other texels, in a frame.
+static struct moment_binning_constants fit_next(following *all, make_normals make, double amount,
+                                                bool follows) {
+    const lobe_scene_changes changes = {.images = &normals, .image_count = 1};
+    const refit_request request = {.follows = follows};
+    struct moment_binning_constants result;
+    replace_texels(all->scene, normals, make(all->width, all->height, amount));
+    assert_int_equal(passes_device_scene_update(all->run.scene, &changes, &all->fixture->host),
+                     LOBE_OK);
+    const lobe_resource bins = passes_moment_refit(&all->run.context, 0, &all->first, &request);
+    lobe_graph_read_back(all->fixture->graph, bins, (lobe_range){0});
+    pass_run_execute(&all->run);
+    copy_read_back(all->fixture, bins, &result, sizeof result);
+    lobe_graph_begin(all->fixture->graph);
+    return result;
+}
+
+/// What a point lacks of the likelihood of the best fit that the host finds.
+static double lack_of(const following *all, const struct moment_binning_constants *bins) {
+    refit r = {.first = all->first, .bins = *bins};
+    r.survey = passes_lobe_survey_make(all->run.scene, &all->run.scene->materials[0], NULL);
+    assert_non_null(r.survey);
+    const double lack = (best_likelihood(&r) - likelihood_of(&r)) / (double)r.first.points;
+    lobe_release(r.survey);
+    return lack;
+}
+
+static void stop_following(following *all) {
+    pass_run_end(&all->run);
+    lobe_scene_destroy(&all->scene);
+    assert_int_equal(all->fixture->errors, 0);
+}
+
+/// Whether a fit that may follow another is the same as one anew.
+static bool begins_anew(following *all, make_normals make, double amount) {
+    const struct moment_binning_constants bins = fit_next(all, make, amount, true);
+    const struct moment_binning_constants anew = fit_next(all, make, amount, false);
+    return memcmp(&bins, &anew, sizeof bins) == 0;
+}
+
+static void fits_begin_anew_where_there_is_none_to_follow(void **state) {
+    following all;
+    follow_from(*state, round_bumps, 0.3, &all);
+    assert_true(begins_anew(&all, round_bumps, 0.35));
+    // One that follows nothing leaves nothing.
+    assert_true(begins_anew(&all, round_bumps, 0.36));
+    stop_following(&all);
+}
+
+static void fits_begin_anew_where_texels_are_quite_others(void **state) {
+    static const struct {
+        make_normals make;
+        double amount;
+        bool anew;
+    } ends[] = {{round_bumps, 0.41, false}, {grooves_along_x, 0.9, true}};
+    for (size_t n = 0; n < sizeof ends / sizeof *ends; n++) {
+        following all;
+        follow_from(*state, round_bumps, 0.3, &all);
+        for (int i = 1; i <= 3; i++)
+            (void)fit_next(&all, round_bumps, 0.38 + 0.01 * i, true);
+        assert_true(begins_anew(&all, ends[n].make, ends[n].amount) == ends[n].anew);
+        stop_following(&all);
+    }
+}
+
+/// All first bins are the same, and rounds of improvement alone would leave them so: then a point
+/// lacks 0.4.
+static void bins_of_a_flat_map_part_as_it_rises(void **state) {
+    enum { RISING = 50, FRAMES = 120 };
+    struct moment_binning_constants bins;
+    following all;
+    follow_from(*state, one_slope, 0, &all);
+    for (int i = 1; i <= FRAMES; i++)
+        bins = fit_next(&all, round_bumps, 0.3 * fmin((double)i / RISING, 1), true);
+    const double lack = lack_of(&all, &bins);
+    if (!(lack < 0.03))
+        fail_msg("a point lacks %g", lack);
+    stop_following(&all);
+}
+
+// ---------------------------------------------------------------------------------------------
 // Hats
 
 /// What the host makes of the second texels from the start.
@@ -301,6 +405,9 @@ int main(void) {
         cmocka_unit_test(the_smoothest_and_the_roughest_are_fitted),
         cmocka_unit_test(four_lobes_of_a_texel_are_fitted_to_six_bins),
         cmocka_unit_test(refits_are_the_same_in_every_run),
+        cmocka_unit_test(fits_begin_anew_where_there_is_none_to_follow),
+        cmocka_unit_test(fits_begin_anew_where_texels_are_quite_others),
+        cmocka_unit_test(bins_of_a_flat_map_part_as_it_rises),
         cmocka_unit_test(hats_are_those_of_the_host),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);

@@ -198,16 +198,17 @@ static void the_device_fits_bins_to_new_texels(void **state) {
     stop(f, &scene);
 }
 
-/// A picture of `moments`, whose fits serve some frames, and how many fits it took.
-static uint64_t moments_picture(lobe_renderer *renderer, const char *frames_of_fit,
-                                size_t *refits) {
+/// A picture of `moments` with such a setting, whose fits follow no others, and how many fits it
+/// took.
+static uint64_t moments_picture(lobe_renderer *renderer, const char *setting, size_t *refits) {
     lobe_settings settings;
     lobe_render_parameters wanted = parameters();
     lobe_frame frame;
     wanted.filter = filter_named("moments");
     wanted.settings = &settings;
     lobe_settings_default(wanted.filter, &settings);
-    assert_int_equal(lobe_settings_set(wanted.filter, &settings, frames_of_fit, NULL), LOBE_OK);
+    assert_int_equal(lobe_settings_set(wanted.filter, &settings, "refit=anew", NULL), LOBE_OK);
+    assert_int_equal(lobe_settings_set(wanted.filter, &settings, setting, NULL), LOBE_OK);
     assert_int_equal(lobe_renderer_render(renderer, &wanted, &frame), LOBE_OK);
     const uint64_t hash = image_hash(&frame.radiance);
     lobe_frame_free(&frame);
@@ -241,6 +242,33 @@ static void a_fit_serves_the_frames_after_it(void **state) {
     }
     lobe_renderer_destroy(&always);
     stop(f, &scene);
+}
+
+/// Bins follow only where something changes, and neither those of another scene nor of a frame that
+/// rebuilds all.
+static void fits_follow_others(void **state) {
+    fixture *f = *state;
+    const lobe_scene_changes changes = {.images = &map, .image_count = 1};
+    uint64_t hashes[2][3];
+    size_t refits, none;
+    for (int run = 0; run < 2; run++) {
+        lobe_scene *scene = start(f);
+        (void)moments_picture(f->renderer, "refit=follow", &none);
+        for (int n = 0; n < 3; n++) {
+            change_texels(scene, 90);
+            ((float *)scene->images[map].image.texels)[4 * n] *= 0.9f;
+            update(f, &changes);
+            hashes[run][n] = moments_picture(f->renderer, "refit=follow", &refits);
+            assert_int_equal(refits, MATERIALS);
+            assert_true(moments_picture(f->renderer, "refit=follow", &none) == hashes[run][n]);
+            assert_int_equal(none, 0);
+        }
+        const uint64_t anew = moments_picture(f->renderer, "refit=anew", &refits);
+        assert_int_equal(refits, MATERIALS);
+        assert_true(anew != hashes[run][2]);
+        stop(f, &scene);
+    }
+    assert_memory_equal(hashes[0], hashes[1], sizeof hashes[0]);
 }
 
 /// The host makes bins for numbers that change once; where they change from frame to frame, and
@@ -534,6 +562,7 @@ int main(void) {
         cmocka_unit_test(frames_with_changes_create_nothing),
         cmocka_unit_test(the_device_fits_bins_to_new_texels),
         cmocka_unit_test(a_fit_serves_the_frames_after_it),
+        cmocka_unit_test(fits_follow_others),
         cmocka_unit_test(the_device_fits_bins_to_moving_numbers),
         cmocka_unit_test(equal_constants_are_not_written),
         cmocka_unit_test(meshes_and_other_sizes_do_not_wait),
