@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tests/long_runs.h"
-
 #include "scenes/builtin/random.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/shape.h"
@@ -334,7 +332,6 @@ static void compare_planes(fixture *f, const plane_case cases[2], bool displaced
 }
 
 static void stretched_coordinates_equal_stretched_maps(void **state) {
-    only_in_long_runs();
     static const float wide[16] = {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     // |S_u| of `rows` R is 2 |column 0 of R^-1|.
     const plane_case cases[][2] = {
@@ -424,7 +421,6 @@ static wave_field random_waves(void) {
 /// Measured: diffuse -0.021, -0.011; sheared -0.015, -0.007. Metal -0.31, -0.18; sheared -0.28,
 /// -0.14. With slopes that forget the stretching -0.06 and -0.6.
 static void brightness_is_that_of_the_relief_itself(void **state) {
-    only_in_long_runs();
     fixture *f = *state;
     static const plane_case cases[] = {
         {"square", {{1, 0}, {0, 1}}, 256, 256, 0.08, NULL, 0},

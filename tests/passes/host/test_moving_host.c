@@ -218,7 +218,7 @@ static void memory_stays(void **state) {
 }
 
 int main(int count, char **arguments) {
-    frames = long_runs() ? 300 : 120;
+    frames = long_runs() ? 300 : 60;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_stays),
         cmocka_unit_test(frames_are_submitted_once_and_waited_for_never),

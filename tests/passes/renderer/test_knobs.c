@@ -120,7 +120,7 @@ static void views_show_what_they_say(void **state) {
     fixture *f = *state;
     lobe_scene *scene = both_models();
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    for (size_t i = 0; i < lobe_filter_count(); i++) {
+    for (size_t i = 0; i < lobe_filter_count(); i += long_runs() ? 1 : 3) {
         const char *filter = lobe_filter_name(lobe_filter_get(i));
         picture_request request = {.filter = filter,
                                    .settings = {"view=radiance", NULL},

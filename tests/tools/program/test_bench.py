@@ -46,8 +46,11 @@ write_bumpy()
 
 
 def filters():
+    """In the order of the program: all, or those that the cases name."""
     lines = succeeds("filters").stdout.splitlines()
-    return [line.split(":")[0] for line in lines if line and line[0] != " "]
+    names = [line.split(":")[0] for line in lines if line and line[0] != " "]
+    named = names if tap.long_runs() else ("direct", "lobes", "moments", "reference")
+    return [name for name in names if name in named]
 
 
 def is_number(value, least=0):
@@ -96,7 +99,7 @@ def measure(folder, *arguments):
 
 @functools.cache
 def every_filter():
-    return measure(fresh_folder("every_filter"), BUMPY, *QUICK)
+    return measure(fresh_folder("every_filter"), BUMPY, "--filters", ",".join(filters()), *QUICK)
 
 
 @functools.cache
@@ -141,7 +144,9 @@ def test_changed_texels_are_paid_for():
     for one in (direct, moments):
         built, changed = ([entry["name"] for entry in one[key]]
                           for key in ("passes", "changed_passes"))
-        check(built == changed, f"{built} is not {changed}")
+        # Where everything is built, no fit goes on from an earlier one.
+        check([name for name in built if name != "moment_no_fit"] == changed,
+              f"{built} is not {changed}")
         check(("moment_refit" in changed) == (one is moments), str(changed))
         wall, caller, process = (one[f"changed_{name}_ms"]["median"]
                                  for name in ("wall", "caller_cpu", "process_cpu"))

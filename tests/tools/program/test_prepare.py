@@ -124,4 +124,4 @@ def test_folders_are_tried_before_work():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals()))
+    sys.exit(tap.run(globals(), long=[test_materials_that_change_are_told_of]))

@@ -338,4 +338,4 @@ if __name__ == "__main__":
         test_frames_keep_their_maps, test_time_and_ranges_of_frames, test_graph, test_lights,
         test_options_that_do_nothing_are_told, test_progress_on_a_terminal,
         test_device_from_the_environment, test_gltf_file, test_an_empty_picture_is_explained,
-        test_material_folder)))
+        test_material_folder), long=[test_fitted_mixtures_are_kept]))

@@ -5,14 +5,19 @@ import sys
 import traceback
 
 
+def long_runs():
+    """Whether cases run that take seconds and find little that others do not: `tools/test --long`
+    sets LOBE_LONG_RUNS."""
+    return "LOBE_LONG_RUNS" in os.environ
+
+
 def run(module, under_sanitizers=None, long=()):
     """Runs all functions of a module (its globals()) whose names start with "test_", in the order
     of their definition. If `under_sanitizers` is given, each case runs in one of the two builds,
     which halves the time: these under sanitizers, the others, which run no C code that these do
-    not, as released. Those of `long` take seconds and find little that others do not: they run if
-    LOBE_LONG_RUNS is set, as by `tools/test --long`. Returns the exit status."""
+    not, as released. Those of `long` run in long runs alone. Returns the exit status."""
     cases = [(name, value) for name, value in module.items() if name.startswith("test_")]
-    if "LOBE_LONG_RUNS" not in os.environ:
+    if not long_runs():
         cases = [(name, value) for name, value in cases if value not in long]
     if under_sanitizers:
         sanitized = "LOBE_TEST_SANITIZERS" in os.environ
