@@ -251,6 +251,7 @@ const uint BY_WIDTH = 3;    // and of the logarithm of the variance
 const uint FOLLOW = 4;      // improve the last fit's bins
 const uint BLEND = 5;       // improve those that a search has found, which the bins become
 const uint MEASURE = 6;     // nothing: the numbers of the best of all are wanted
+const uint UNBEGUN = 7;     // of a search: the next fit begins it
 
 // Without first bins, adding bins comes first.
 uint first_step() {
@@ -270,6 +271,9 @@ struct progress {
     float followed; // likelihood under the bins that are followed
     float shown_score;
     uint left;      // rounds of the search in this fit
+    // What comes before the next round: in one place, because lavapipe compiles this shader three
+    // times as long where each of these, with its barriers, is inlined at every call.
+    bool begins, saves, shows;
     // Of all lobes: the middle, how far they are from it, and logarithms of the variance.
     vec2 middle;
     float reach, narrowest, broadest;
@@ -394,12 +398,10 @@ void take_first_bins() {
     vec3 inverse = first.shape.xyz / half_points;
     float determinant = max(inverse.x * inverse.y - inverse.z * inverse.z, 1e-16);
     float part = exp(min(first.centre.z - half_points * log(determinant), 0.0));
-    barrier();
     if (thread() < MOMENT_MAXIMUM_BINS) {
         bins[thread()] = first;
         gaussians[thread()] = vec4(vec3(inverse.yx, -inverse.z) / determinant, part);
     }
-    barrier();
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -490,8 +492,7 @@ void end_step(inout progress at) {
             at.step = BLEND;
         else
             next_step(at);
-        if (at.step == FOLLOW)
-            begin(at);
+        at.begins = at.step == FOLLOW;
         return;
     }
     bool first = at.step == first_step();
@@ -553,29 +554,18 @@ bool knows_earlier() {
            state.bins == constants.bins && state.points == constants.points;
 }
 
-void take_other() {
-    if (thread() < constants.bins)
-        set_own_bin(state.other[thread()]);
-    barrier();
-}
-
-void take_shown() {
-    if (thread() < constants.bins)
-        set_own_bin(shown[thread()]);
-    barrier();
-}
-
 void follow(inout progress at) {
     at.step = state.step == BLEND ? BLEND : FOLLOW;
     at.round = at.step == BLEND ? state.round : 0;
     at.count = constants.bins;
     at.likelihood = at.followed = state.likelihood;
-    if (thread() < constants.bins)
+    if (thread() < constants.bins) {
         shown[thread()] = state.shown[thread()];
-    if (at.step == BLEND)
-        take_other();
-    else
-        take_shown();
+        if (at.step == BLEND)
+            set_own_bin(state.other[thread()]);
+        else
+            set_own_bin(state.shown[thread()]);
+    }
 }
 
 void go_on_with_search(inout progress at) {
@@ -588,12 +578,13 @@ void go_on_with_search(inout progress at) {
     at.narrowest = state.narrowest;
     at.broadest = state.broadest;
     at.left = ROUNDS_OF_SEARCH;
-    take_other();
+    at.begins = at.step == UNBEGUN;
+    if (thread() < constants.bins && !at.begins)
+        set_own_bin(state.other[thread()]);
 }
 
 // Leaves the search to the next fit.
 void save_search(progress at) {
-    barrier();
     if (thread() < constants.bins)
         state.other[thread()] = own_gaussian();
     if (thread() == 0) {
@@ -607,13 +598,13 @@ void save_search(progress at) {
         state.narrowest = at.narrowest;
         state.broadest = at.broadest;
     }
-    barrier();
 }
 
 void measure_shown(inout progress at) {
     at.step = MEASURE;
     at.count = constants.bins;
-    take_shown();
+    if (thread() < constants.bins)
+        set_own_bin(shown[thread()]);
 }
 
 // Gives each bin found the number of one that is shown and near.
@@ -656,10 +647,8 @@ void blend(inout progress at) {
         shown[thread()] =
             fit_gaussian(mix(old.place, found.place, part), mix(old.spread, found.spread, part));
     }
-    if (at.round == FITS_OF_BLEND)
-        begin(at);
-    save_search(at);
-    measure_shown(at);
+    at.begins = at.round == FITS_OF_BLEND;
+    at.saves = at.shows = true;
 }
 
 void end_round(inout progress at, bool settled) {
@@ -671,14 +660,11 @@ void end_round(inout progress at, bool settled) {
 }
 
 // After a round of the search.
-void end_round_of_search(inout progress at, bool settled) {
-    end_round(at, settled);
+void end_round_of_search(inout progress at) {
+    --at.left;
     if (at.step == BLEND)
         begin_blend(at);
-    else if (--at.left > 0)
-        return;
-    save_search(at);
-    measure_shown(at);
+    at.saves = at.shows = at.step == BLEND || at.left == 0;
 }
 
 void end_following(inout progress at) {
@@ -686,11 +672,9 @@ void end_following(inout progress at) {
     at.shown_score = at.score;
     if (thread() < constants.bins)
         shown[thread()] = own_gaussian();
-    barrier();
-    if (constants.bins > 1)
+    at.shows = constants.bins == 1;
+    if (!at.shows)
         go_on_with_search(at);
-    else
-        measure_shown(at);
 }
 
 void take_round(inout progress at) {
@@ -705,7 +689,7 @@ void take_round(inout progress at) {
     if ((at.step == FOLLOW || at.step == BLEND) &&
         abs(at.likelihood - at.followed) > OTHER_TEXELS * constants.points) {
         at.follows = false;
-        begin(at);
+        at.begins = true;
         return;
     }
     improve(at.count, lost, total);
@@ -714,22 +698,36 @@ void take_round(inout progress at) {
         end_following(at);
     else if (at.step == BLEND)
         blend(at);
-    else if (at.follows)
-        end_round_of_search(at, settled);
-    else
+    else {
         end_round(at, settled);
+        if (at.follows)
+            end_round_of_search(at);
+    }
     barrier();
+}
+
+// Each thread has to do with its own bin alone.
+void prepare_round(inout progress at) {
+    if (at.begins)
+        begin(at);
+    if (at.saves)
+        save_search(at);
+    if (at.shows)
+        measure_shown(at);
+    barrier();
+    at.begins = at.saves = at.shows = false;
 }
 
 progress fit(plane_range range) {
     progress at;
     at.iterations = 0;
     at.follows = knows_earlier();
+    at.begins = !at.follows;
+    at.saves = at.shows = false;
     if (at.follows)
         follow(at);
-    else
-        begin(at);
     for (;;) {
+        prepare_round(at);
         for (uint i = 0; i < at.count; ++i)
             visit(i, at, range);
         if (at.step == MEASURE)
@@ -747,7 +745,7 @@ void save_state(progress at) {
         at.followed = numbers[0][LIKELIHOOD] / total_weight(constants.bins);
         if (thread() < constants.bins)
             shown[thread()] = own_gaussian();
-        begin(at);
+        at.step = UNBEGUN;
         save_search(at);
     }
     if (thread() < constants.bins)
