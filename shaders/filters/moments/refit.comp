@@ -745,12 +745,12 @@ void save_state(progress at) {
         at.followed = numbers[0][LIKELIHOOD] / total_weight(constants.bins);
         if (thread() < constants.bins)
             shown[thread()] = own_gaussian();
-        at.step = UNBEGUN;
-        save_search(at);
     }
     if (thread() < constants.bins)
         state.shown[thread()] = shown[thread()];
     if (thread() == 0) {
+        if (!at.follows)
+            state.step = UNBEGUN;
         state.bins = constants.bins;
         state.points = constants.points;
         state.likelihood = at.followed;
