@@ -1,7 +1,7 @@
 // Preloaded into sanitized tests that compile many shaders. The driver's compiler, which is C++,
 // then takes its memory from the C library: with the address sanitizer's, such a test takes up to
-// three quarters more time. Our own C code is checked as before; tests of what is C++ beneath us
-// (tinygltf reads files of strangers) run without this.
+// three quarters more time. Our own C code is checked as before. Tests of C++ libraries that read
+// untrusted files (tinygltf) run without this.
 
 #include <cstddef>
 #include <new>
