@@ -13,13 +13,14 @@
 // Over the plane of the half vector, D is a sum of Gaussians of slopes: of GGX, whose slopes have
 // Student's t distribution of two degrees of freedom at the scale of Beckmann's, four. To first
 // order each is a Gaussian of the texels' slopes, too, and so is its product with P. The sum of
-// these products is taken for one Gaussian of its mean and covariance. The rest of the integrand,
-// area, masking and the quotient of D and what it is to first order, varies little: a few nodes are
-// enough. Error 0.8 % for GGX and 0.3 % for Beckmann, on average over deviations of slopes from
-// 0.03 to 0.5, widths from 0.04 to 0.64 and directions from which they are seen, and 1.1 % where
-// viewer or light is lower than 25 degrees. On rough slopes of 0.15 to 0.5 seen at 75 to 83 degrees
-// it is 3.3 %. Four nodes in each of the four Gaussians had 0.8 %, 1.6 % and 14 %: single Gaussians
-// differ from what they are to first order by more than their sum.
+// these products is taken for one Gaussian of its mean and covariance. Far from the texels GGX's
+// tail takes the place of the broadest Gaussian: it is nearly the same for all of them. The rest of
+// the integrand, area, masking and the quotient of D and what it is to first order, varies little:
+// a few nodes are enough. Error 0.8 % for GGX and 0.3 % for Beckmann, on average over deviations of
+// slopes from 0.03 to 0.5, widths from 0.04 to 0.64 and directions from which they are seen, and
+// 1.1 % where viewer or light is lower than 25 degrees. On rough slopes of 0.15 to 0.5 seen at 75
+// to 83 degrees it is 3.3 %. Four nodes in each of the four Gaussians had 0.8 %, 1.6 % and 14 %:
+// single Gaussians differ from what they are to first order by more than their sum.
 
 #include "filters/leadr/base_lobes.glsl"
 #include "lib/lobe/plane_lobe.glsl"
@@ -59,6 +60,12 @@ struct mirroring_slopes {
     float density; // of half vectors, per unit of slopes over their own plane
 };
 
+// 2 pi times the density of base lobes about texels at a distant slope.
+float base_tail(base_lobes microfacets, vec2 mean, vec3 covariance) {
+    float mean_variance = microfacets.variance * exp(microfacets.varies);
+    return BASE_HAS_TAILS ? 2.0 * PI * density_of_tail(2.0 * mean_variance, mean, covariance) : 0.0;
+}
+
 mirroring_slopes mirroring_slopes_of(lobes_of_texels texels) {
     mirroring_slopes result;
     result.half_slope = slope_of_normal(texels.halfway);
@@ -78,20 +85,27 @@ mirroring_slopes mirroring_slopes_of(lobes_of_texels texels) {
     vec4 inverse_determinant = 1.0 / (own_determinant + base * (c.x + c.y + base));
     vec4 x = ((c.y + base) * mean.x - c.z * mean.y) * inverse_determinant;
     vec4 y = ((c.x + base) * mean.y - c.z * mean.x) * inverse_determinant;
-    part *= exp(-0.5 * (x * mean.x + y * mean.y)) * sqrt(inverse_determinant);
-    float sum = max(dot(part, vec4(1.0)), 1e-30);
-    result.density = 0.5 * INVERSE_PI * sum;
-    part /= sum;
+    vec4 exponent = 0.5 * (x * mean.x + y * mean.y);
+    part *= exp(-exponent) * sqrt(inverse_determinant);
+    float sum = dot(part, vec4(1.0));
+    float tail = exponent.w > TAIL_BEGINS ? max(base_tail(texels.microfacets, mean, c) - sum, 0.0)
+                                          : 0.0;
+    float all = max(sum + tail, 1e-30);
+    result.density = 0.5 * INVERSE_PI * all;
+    part /= all;
+    tail /= all;
     // Means B (C + B)^-1 mean, and covariances B (C + B)^-1 C.
     x *= base;
     y *= base;
-    vec2 place = vec2(dot(part, x), dot(part, y));
+    vec2 place = vec2(dot(part, x), dot(part, y)) + tail * mean;
     x -= place.x;
     y -= place.y;
+    vec2 rest = mean - place;
     vec4 scale = base * inverse_determinant;
     float both = own_determinant * dot(part, scale);
-    vec3 covariance = both * vec3(1.0, 1.0, 0.0) + dot(part, scale * base) * c;
+    vec3 covariance = both * vec3(1.0, 1.0, 0.0) + (dot(part, scale * base) + tail) * c;
     covariance += vec3(dot(part, x * x), dot(part, y * y), dot(part, x * y));
+    covariance += tail * vec3(rest * rest, rest.x * rest.y);
     result.tilted = slope_distribution_of(place, covariance);
     return result;
 }

@@ -147,6 +147,15 @@ reflecting_places reflecting_places_of(plane_bin bin, vec3 inverse, vec2 d) {
     return reflecting_places(bin.mean + gain * d, vec3(left[0][0], left[1][1], left[0][1]));
 }
 
+// GGX beyond the bin's broadest term, where the terms fall off too fast. Of widths that vary the
+// mean variance counts there.
+float ggx_tail(plane_bin bin, vec2 d) {
+    vec3 exponent = bin.terms[MAXIMUM_TERMS - 1].exponent;
+    if (dot(exponent, vec3(d * d, d.x * d.y)) > -TAIL_BEGINS)
+        return 0.0;
+    return bin.mass * density_of_tail(2.0 * bin.mean_variance, d, bin.places);
+}
+
 // The sum of the terms; `inverse`: the mean of their inverse covariances.
 float evaluate_terms(plane_bin bin, vec2 d, out vec3 inverse) {
     float value = 0.0;
@@ -156,6 +165,8 @@ float evaluate_terms(plane_bin bin, vec2 d, out vec3 inverse) {
         value += term;
         exponent += term * bin.terms[i].exponent;
     }
+    if (distribution_kind() == DISTRIBUTION_GGX)
+        value = max(value, ggx_tail(bin, d));
     inverse = vec3(-2.0, -2.0, -1.0) / max(value, 1e-30) * exponent;
     return value;
 }

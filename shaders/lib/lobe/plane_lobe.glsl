@@ -60,6 +60,10 @@ float plane_mass(uint model, uint distribution, float parameter) {
 // x/alpha < 10 exp(sqrt(varies)), weighted by x / D.
 const float TAIL_VARIES_MAXIMUM = 0.64;
 
+// Beyond that the sum falls off too fast: GGX's own tail takes over where the last term's exponent
+// is minus this, near x/alpha = 8.
+const float TAIL_BEGINS = 2.0;
+
 vec4 tail_weight(float varies) {
     vec3 weight = vec3(0.2565, 0.4539, 0.2276) + vec3(-0.0722, -0.0617, 0.0977) * varies;
     return vec4(weight, 1.0 - (weight.x + weight.y + weight.z));
@@ -68,6 +72,17 @@ vec4 tail_weight(float varies) {
 vec4 tail_spread(float varies) {
     vec4 slope = vec4(-2.545, -0.024, 1.123, 2.069) + vec4(0.863, -0.657, -0.885, -1.146) * varies;
     return vec4(0.4112, 1.4058, 5.6833, 31.7164) * exp(slope * varies);
+}
+
+// The density of Student's t distribution, e twice its variance, at a distance d from a middle that
+// varies by far less: over Gaussian middles of covariance C, (xx, yy, xy), the mean of |d|^-4 is
+// |d|^-4 (1 + (12 <d, C d>/|d|^2 - 2 tr C)/|d|^2 + ...).
+float density_of_tail(float e, vec2 d, vec3 covariance) {
+    float square = dot(d, d);
+    float along = dot(covariance, vec3(d * d, 2.0 * d.x * d.y)) / max(square, 1e-30);
+    float nearer = min(6.0 * along - (covariance.x + covariance.y), 0.5 * square);
+    float scale = 1.0 / (e + square - nearer);
+    return INVERSE_PI * e * scale * scale;
 }
 
 #endif
