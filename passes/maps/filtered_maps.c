@@ -182,11 +182,32 @@ static void bind_colour_normals(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_COLOUR_NORMALS, may_have_map);
 }
 
+/// Of a mask with several thresholds: in place of the filtered base colour map.
+static void bind_mask_layers(const filter_context *context, uint32_t index, bool build,
+                             filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const bool varies = build && passes_mask_varies(context->scene, material);
+    lobe_resource map = lobe_graph_import_texture(context->graph, context->scene->white),
+                  thresholds = lobe_graph_import_buffer(context->graph, material->map_constants);
+    if (varies) {
+        const struct mask_thresholds values = passes_mask_thresholds(context->scene, material);
+        map = masked_colours(context, index);
+        thresholds =
+            lobe_graph_upload(context->graph, "thresholds of a mask", &values, sizeof values);
+    }
+    passes_appearance_bind(appearance, "mask_layers", map,
+                           passes_filtered_map_sampler(context, material, MAP_BASE_COLOUR));
+    passes_appearance_bind(appearance, "mask_block", thresholds, (lobe_sampler){0});
+    passes_appearance_specialise(appearance, SPECIALISE_MASK_VARIES, varies);
+}
+
 static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {
     const device_material *material = &context->scene->materials[index];
-    return map == MAP_BASE_COLOUR && material->material->alpha_mask
-               ? masked_colours(context, index)
-               : filtered_image(context, material, map);
+    if (map != MAP_BASE_COLOUR || !material->material->alpha_mask)
+        return filtered_image(context, material, map);
+    return passes_mask_varies(context->scene, material)
+               ? lobe_graph_import_texture(context->graph, context->scene->white)
+               : masked_colours(context, index);
 }
 
 /// Maps of one texel are their own mean.
@@ -260,6 +281,7 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
+    bind_mask_layers(context, index, (filtered & 1u << MAP_BASE_COLOUR) != 0, appearance);
     bind_metal_means(context, index, appearance);
     bind_colour_normals(context, index, appearance);
 }

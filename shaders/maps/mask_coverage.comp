@@ -7,6 +7,8 @@
 //
 // Where the map is interpolated, so is its alpha before it meets the cutoff. Between four texel
 // centres it is bilinear: linear along a line, of which the part above the cutoff is exact.
+//
+// A layer for each of the thresholds, where these differ over the meshes.
 
 #include "interface/colours/mask.h"
 #include "lib/map/box_reduction.glsl"
@@ -22,9 +24,17 @@ layout(push_constant) uniform constants_block { mask_constants constants; };
 // Lines in each quarter of a texel.
 const int LINES = 4;
 
+// Of this layer's alpha.
+float alpha_factor() {
+    uint layer = gl_GlobalInvocationID.z;
+    return layer == 0u ? constants.alpha
+                       : constants.cutoff / (constants.cutoff / constants.alpha +
+                                             constants.step * float(layer));
+}
+
 // Above 0 or equal: kept.
 float above_cutoff(vec4 colour) {
-    return colour.a * constants.alpha - constants.cutoff;
+    return colour.a * alpha_factor() - constants.cutoff;
 }
 
 // The integral along a line, of length one, between two colours.
@@ -115,5 +125,5 @@ void main() {
             mean += row_weights[y] * column_weights[x] *
                     kept_of_texel(2 * position + ivec2(x, y));
     }
-    imageStore(coverage_map, ivec3(position, 0), mean);
+    imageStore(coverage_map, ivec3(position, gl_GlobalInvocationID.z), mean);
 }

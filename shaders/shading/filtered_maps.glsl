@@ -4,6 +4,7 @@
 // Reading maps over a pixel's footprint. A filtered map holds levels 1 and up of its base map (its
 // own level 0 has half the base map's size); level 0 is the base map itself.
 
+#include "interface/colours/mask.h"
 #include "shading/map_area.glsl"
 #include "shading/unfiltered_maps.glsl"
 
@@ -13,12 +14,16 @@ layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
 layout(constant_id = SPECIALISE_LIKE_LOBES) const uint LIKE_LOBES = 0;
 // Maps of lobes are sums over what a mask keeps, see maps/base_maps.glsl.
 layout(constant_id = SPECIALISE_MASKED_LOBES) const bool MASKED_LOBES = false;
+// Vertices make several masks of one, and mask_layers takes the place of base_colour_filtered.
+layout(constant_id = SPECIALISE_MASK_VARIES) const bool MASK_VARIES = false;
 
 layout(LOBE_DESCRIPTOR(17)) uniform sampler2D base_colour_filtered;
 layout(LOBE_DESCRIPTOR(18)) uniform sampler2D width_filtered;
 layout(LOBE_DESCRIPTOR(19)) uniform sampler2D specular_filtered;
 layout(LOBE_DESCRIPTOR(20)) uniform sampler2D emissive_filtered;
 layout(LOBE_DESCRIPTOR(21)) uniform sampler2D occlusion_filtered;
+layout(LOBE_DESCRIPTOR(49)) uniform sampler2DArray mask_layers;
+layout(LOBE_DESCRIPTOR(50), std140) uniform mask_block { mask_thresholds thresholds; };
 
 // The level of a filtered map to fetch. Two levels are blended over a part of the way from one to
 // the next alone; elsewhere the nearer one is enough, which takes half the fetches.
@@ -68,6 +73,23 @@ vec4 filterable(int map, vec4 texel, surface_point surface) {
     return is_kept(texel.a, surface) ? vec4(texel.rgb, 1.0) : vec4(0.0);
 }
 
+// Where between the layers of a mask the pixel's own threshold lies: layers, and the second's part.
+// Of an alpha of 0 it is infinite.
+vec3 mask_layers_at(surface_point surface) {
+    float threshold = material.emissive.w / (material.base_colour.a * surface.colour.a);
+    float place = clamp((threshold - thresholds.least) * thresholds.layers_per_alpha, 0.0,
+                        thresholds.last_layer);
+    float first = min(floor(place), thresholds.last_layer - 1.0);
+    return vec3(first, first + 1.0, place - first);
+}
+
+// One probe of what the pixel's mask keeps.
+vec4 fetch_mask_probe(map_area area, uint probe, surface_point surface) {
+    vec3 layers = mask_layers_at(surface);
+    return mix(fetch_probe(mask_layers, uint(layers.x), area, probe),
+               fetch_probe(mask_layers, uint(layers.y), area, probe), layers.z);
+}
+
 // `lobes`: the area of the lobes' map, reused for maps with the same layout.
 vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point surface,
                     map_area lobes) {
@@ -81,7 +103,8 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
         area = area_of(map, vec2(textureSize(base, 0)), surface);
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < probes_of(area); ++i) {
-        vec4 value = fetch_probe(filtered, area, i);
+        vec4 value = MASK_VARIES && is_masked(map) ? fetch_mask_probe(area, i, surface)
+                                                   : fetch_probe(filtered, area, i);
         if (may_see_level_0(map))
             value = mix(filterable(map, base_texel(base, probe_position(area, i)), surface), value,
                         min(area.level, 1.0));

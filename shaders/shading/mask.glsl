@@ -16,6 +16,15 @@ const float LONGEST_MASK = 16.0;
 // they do not hide the same pixels.
 const float DITHER_LAYERS = 16.0;
 
+// In the filtered map. `level`: its own.
+float filtered_coverage(surface_point surface, vec2 position, float level) {
+    if (!MASK_VARIES)
+        return textureLod(base_colour_filtered, position, level).a;
+    vec3 layers = mask_layers_at(surface);
+    return mix(textureLod(mask_layers, vec3(position, layers.x), level).a,
+               textureLod(mask_layers, vec3(position, layers.y), level).a, layers.z);
+}
+
 // The mask's coverage, at one place within the footprint; `along`: where, in [0, 1].
 float mask_coverage(surface_point surface, float along) {
     vec2 size = vec2(textureSize(base_colour_map, 0));
@@ -28,12 +37,12 @@ float mask_coverage(surface_point surface, float along) {
     float level = log2(max(width, 1e-6)) + knobs.level_bias;
     vec4 finest = base_texel(base_colour_map, position);
     float coverage = filterable(MAP_BASE_COLOUR, finest, surface).a;
-    return mix(coverage, textureLod(base_colour_filtered, position, max(level - 1.0, 0.0)).a,
+    return mix(coverage, filtered_coverage(surface, position, max(level - 1.0, 0.0)),
                clamp(level, 0.0, 1.0));
 }
 
 bool keeps_footprint(surface_point surface) {
-    // Where even a texel of alpha 1 is cut away: the filtered map knows one alpha of all vertices.
+    // Where even a texel of alpha 1 is cut away: filtered maps know no higher threshold.
     if (!is_kept(1.0, surface))
         return false;
     if ((FILTERED_MAPS & (1u << MAP_BASE_COLOUR)) == 0u)

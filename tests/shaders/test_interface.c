@@ -151,6 +151,7 @@ static known_member known[] = {
     MEMBER(mask_constants, repeats_v, 4),
     MEMBER(mask_constants, alpha, 5),
     MEMBER(mask_constants, cutoff, 6),
+    MEMBER(mask_constants, step, 7),
     MEMBER(atlas_constants, rotation, 0),
     MEMBER(atlas_constants, eye, 1),
     MEMBER(atlas_constants, width, 2),

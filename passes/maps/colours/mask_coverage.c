@@ -1,13 +1,41 @@
 #include "passes/maps/colours/mask_coverage.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
-#include "shaders/interface/colours/mask.h"
 
-static struct mask_constants constants_of(const device_scene *scene, uint32_t index) {
-    const device_material *material = &scene->materials[index];
+/// Of the thresholds from layer to layer: what is kept is interpolated between them.
+#define LARGEST_STEP 0.05f
+
+static uint32_t layers_of(const mask_range *range) {
+    return range->largest > range->least
+               ? 1 + (uint32_t)ceilf((range->largest - range->least) / LARGEST_STEP)
+               : 1;
+}
+
+bool passes_mask_varies(const device_scene *scene, const device_material *material) {
+    if (!material->material->alpha_mask)
+        return false;
+    const mask_range range = passes_mask_range(scene, material);
+    return layers_of(&range) > 1;
+}
+
+struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
+                                              const device_material *material) {
+    const mask_range range = passes_mask_range(scene, material);
+    const float last = (float)layers_of(&range) - 1;
+    return (struct mask_thresholds){
+        .least = range.least,
+        .layers_per_alpha = last / (range.largest - range.least),
+        .last_layer = last,
+    };
+}
+
+static struct mask_constants
+constants_of(const device_scene *scene, const device_material *material, const mask_range *range) {
+    const uint32_t layers = layers_of(range);
     const device_map *map = &material->maps[MAP_BASE_COLOUR];
     return (struct mask_constants){
         .width = map->width,
@@ -17,26 +45,29 @@ static struct mask_constants constants_of(const device_scene *scene, uint32_t in
         .repeats_v = map->use->wrap_v == LOBE_SCENE_WRAP_REPEAT,
         .alpha = passes_mask_alpha(scene, material),
         .cutoff = material->material->alpha_cutoff,
+        .step = layers > 1 ? (range->largest - range->least) / (float)(layers - 1) : 0,
     };
 }
 
 reduced_map passes_mask_coverage(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
-    const struct mask_constants constants = constants_of(context->scene, index);
+    const mask_range range = passes_mask_range(context->scene, material);
+    const struct mask_constants constants = constants_of(context->scene, material, &range);
+    const uint32_t layers = layers_of(&range);
     char name[64];
     snprintf(name, sizeof name, "kept colours of material %u", index);
     reduced_map map = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
-                                                 constants.width, constants.height, 1, true);
+                                                 constants.width, constants.height, layers, true);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "mask_coverage");
     lobe_pass_read(
         pass, &(lobe_binding){.name = "base_colour_map",
                               .resource = passes_device_map_import(context->graph, context->scene,
                                                                    material, MAP_BASE_COLOUR)});
-    map.resource =
-        lobe_pass_write(pass, &(lobe_binding){"coverage_map", map.resource, .range = {0, 1, 0, 1}});
+    map.resource = lobe_pass_write(
+        pass, &(lobe_binding){"coverage_map", map.resource, .range = {0, 1, 0, layers}});
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = "maps/mask_coverage.comp",
-                                 .threads = {map.width, map.height, 1},
+                                 .threads = {map.width, map.height, layers},
                                  .constants = &constants,
                                  .constants_size = sizeof constants,
                              });

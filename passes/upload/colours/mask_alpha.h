@@ -4,7 +4,16 @@
 #include "passes/upload/device_scene.h"
 
 /// The factor of a map's alpha that a mask compares with its cutoff: that of the base colour, times
-/// that of vertices. Where these differ, it is the middle of those with which anything can be kept.
+/// that of vertices. Where these differ it is the largest, with which most is kept.
 float passes_mask_alpha(const device_scene *scene, const device_material *material);
+
+/// Thresholds of a map's own alpha, as vertices' factors make them of the cutoff, without those
+/// that nothing meets. Equal: there is one alone.
+typedef struct mask_range {
+    float least; ///< with passes_mask_alpha
+    float largest;
+} mask_range;
+
+mask_range passes_mask_range(const device_scene *scene, const device_material *material);
 
 #endif

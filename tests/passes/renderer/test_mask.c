@@ -21,6 +21,7 @@ typedef struct mask_scene {
     float cutoff;
     double tiles;        ///< how often the map repeats
     double vertex_alpha; ///< 0: the mesh has no colours
+    bool to_opaque;      ///< that alpha is of the left edge, and 1 of the right one
 } mask_scene;
 
 static lobe_scene *masked_square(const mask_scene *wanted) {
@@ -37,7 +38,9 @@ static lobe_scene *masked_square(const mask_scene *wanted) {
     lobe_mesh *mesh = &scene->meshes[0];
     mesh->has_colour = wanted->vertex_alpha > 0;
     for (size_t i = 0; mesh->has_colour && i < mesh->vertex_count; i++)
-        mesh->vertices[i].colour[3] = (float)wanted->vertex_alpha;
+        mesh->vertices[i].colour[3] = wanted->to_opaque && mesh->vertices[i].position[0] > 0
+                                          ? 1
+                                          : (float)wanted->vertex_alpha;
     scene_add_sun(scene, (double[]){0, 1, 0}, M_PI);
     scene_look_down(scene, 2);
     scene_end(scene);
@@ -112,9 +115,48 @@ static void vertices_thin_the_mask(void **state) {
                     (mask_scene){.pattern = MASK_SMOOTH, .cutoff = 0.7f, .vertex_alpha = 0.6});
 }
 
+/// The mean of a quarter of the picture's columns.
+static double mean_of_quarter(const lobe_image *picture, uint32_t quarter) {
+    const uint32_t first = quarter * EXTENT / 4, last = (quarter + 1) * EXTENT / 4;
+    double sum = 0;
+    for (uint32_t y = 0; y < EXTENT; y++)
+        for (uint32_t x = first; x < last; x++)
+            sum += (double)((const float *)picture->texels)[4 * (y * EXTENT + x)];
+    return sum / (EXTENT * (last - first));
+}
+
+/// Where a mesh fades, each part of it keeps its own share.
+static void vertices_thin_the_mask_in_places(void **state) {
+    enum { STRIPS = 8 };
+    const mask_scene wanted = {MASK_SMOOTH, false, 0.4f, 10, 0.5, true};
+    lobe_image image = mask_image(wanted.pattern, MAP, MAP);
+    lobe_scene *scene = masked_square(&wanted);
+    for (int k = 0; k < 2; k++) {
+        picture_request request = {
+            .filter = k == 0 ? "mipmap" : "moments", .width = EXTENT, .height = EXTENT};
+        lobe_frame frame = draw_scene(*state, scene, &request);
+        for (uint32_t quarter = 0; quarter < 4; quarter++) {
+            double expected = 0;
+            for (uint32_t i = 0; i < STRIPS; i++) {
+                const double alpha = 0.5 + 0.5 * (quarter + (i + 0.5) / STRIPS) / 4;
+                double mean[4];
+                mask_mean(&image, (mask_sampling){0}, (double)wanted.cutoff / alpha,
+                          (double[]){0, 0}, (double[]){MAP, MAP}, mean);
+                expected += mean[0] / STRIPS;
+            }
+            const double found = mean_of_quarter(&frame.radiance, quarter);
+            if (!(fabs(found - expected) <= 0.05 * expected + 0.003))
+                fail_msg("%s, quarter %u: %g, not %g", request.filter, quarter, found, expected);
+        }
+        lobe_frame_free(&frame);
+    }
+    lobe_image_free(&image);
+    lobe_scene_destroy(&scene);
+}
+
 /// Near, the edge is the base material's: sharp, at the same pixels.
 static void near_edges_are_sharp(void **state) {
-    lobe_scene *scene = masked_square(&(mask_scene){MASK_DISCS, false, 0.5f, 1, 0});
+    lobe_scene *scene = masked_square(&(mask_scene){MASK_DISCS, false, 0.5f, 1, 0, false});
     picture_request request = {.filter = "direct", .width = EXTENT, .height = EXTENT};
     lobe_frame direct = draw_scene(*state, scene, &request);
     request.filter = "lobes";
@@ -129,7 +171,7 @@ static void near_edges_are_sharp(void **state) {
 /// new renderer as well. From below, the same coverage.
 static void pictures_do_not_flicker(void **state) {
     fixture *f = *state;
-    const mask_scene wanted = {MASK_SMOOTH, false, 0.5f, 10, 0};
+    const mask_scene wanted = {MASK_SMOOTH, false, 0.5f, 10, 0, false};
     lobe_scene *scene = masked_square(&wanted);
     picture_request request = {.filter = "lobes", .width = EXTENT, .height = EXTENT};
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
@@ -212,7 +254,7 @@ static size_t times_run(const lobe_frame *frame, const char *name) {
 static void coverage_is_built_once_and_only_for_masks(void **state) {
     fixture *f = *state;
     for (int masked = 0; masked < 2; masked++) {
-        lobe_scene *scene = masked_square(&(mask_scene){MASK_SMOOTH, false, 0.5f, 10, 0});
+        lobe_scene *scene = masked_square(&(mask_scene){MASK_SMOOTH, false, 0.5f, 10, 0, false});
         scene->materials[0].alpha_mask = masked;
         assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
         picture_request request = {.filter = "lobes", .width = 8, .height = 8};
@@ -240,6 +282,7 @@ int main(void) {
         cmocka_unit_test(coverage_is_kept_at_every_distance),
         cmocka_unit_test(every_filter_keeps_coverage),
         cmocka_unit_test(vertices_thin_the_mask),
+        cmocka_unit_test(vertices_thin_the_mask_in_places),
         cmocka_unit_test(near_edges_are_sharp),
         cmocka_unit_test(pictures_do_not_flicker),
         cmocka_unit_test(holes_lend_no_normals),
