@@ -103,6 +103,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
         return;
     fetched.specular = fetched.cosines = vec4(0.0);
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    float share = 0.0; // of the texels, that a mask keeps
     vec3 mean = vec3(0.0), halfway[4];
     for (int k = 0; k < 4; ++k)
         halfway[k] = half_vector(incoming[k], surface.outgoing);
@@ -114,9 +115,12 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
                 continue;
             add_peak(fetched, surface, peak, incoming, halfway);
             mean += peak.part * peak.axis;
+            share += peak.part;
             fetched.lobe_count += 1.0;
         }
     }
+    fetched.specular *= per_kept(share);
+    fetched.cosines *= per_kept(share);
     take_normal(fetched, mean);
 }
 
@@ -135,7 +139,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-// Less of a pixel's light is left to the other peaks.
+// Less of a pixel's light is left to the other peaks. Under a mask, of the peaks so far.
 const float LEAST_PART = 1.0 / 512.0;
 
 vec3 reflect_peak(appearance fetched, surface_point surface, phong_peak peak) {
@@ -147,13 +151,14 @@ vec3 reflect_peak(appearance fetched, surface_point surface, phong_peak peak) {
 vec3 reflect_peaks(inout appearance fetched, surface_point surface) {
     fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     vec3 sum = vec3(0.0), mean = vec3(0.0);
-    float reflecting = 0.0;
+    float reflecting = 0.0, share = 0.0;
     for (uint i = 0u; i < TEXELS; ++i) {
         weighted_texel texel = texel_around(fetched.area, i);
         for (uint j = 0u; j < BINS && texel.weight > 0.0; ++j) {
             phong_peak peak = read_peak(surface, texel, j);
             mean += peak.part * peak.axis;
-            if (peak.part < LEAST_PART)
+            share += peak.part;
+            if (peak.part < (MASKED_LOBES ? LEAST_PART * share : LEAST_PART))
                 continue;
             sum += peak.part * reflect_peak(fetched, surface, peak);
             reflecting += peak.part;
@@ -161,9 +166,9 @@ vec3 reflect_peaks(inout appearance fetched, surface_point surface) {
         }
     }
     take_normal(fetched, mean);
-    sum /= max(reflecting, LEAST_PART);
+    sum /= max(reflecting, MASKED_LOBES ? 1e-6 : LEAST_PART);
     if (DIFFUSE)
-        sum += reflect_lambert(surface, fetched.filtered, mean);
+        sum += reflect_lambert(surface, fetched.filtered, mean * per_kept(share));
     return sum;
 }
 

@@ -36,6 +36,21 @@ gaussian_lobe read_lobe(surface_point surface, map_area area, uint index) {
                          variance + isotropic_variance(surface.curvature));
 }
 
+// Returns the sum of normals by their parts. Under a mask, these add up to the share that it keeps.
+vec3 take_lobes(inout appearance fetched, surface_point surface, map_area area) {
+    float share = 0.0;
+    vec3 mean = vec3(0.0);
+    for (uint i = 0u; i < BINS; ++i) {
+        fetched.lobes[i] = read_lobe(surface, area, i);
+        share += fetched.lobes[i].part;
+        mean += fetched.lobes[i].part * fetched.lobes[i].normal;
+        fetched.lobe_count += fetched.lobes[i].part > 0.0 ? 1.0 : 0.0;
+    }
+    for (uint i = 0u; i < BINS; ++i)
+        fetched.lobes[i].part *= per_kept(share);
+    return mean;
+}
+
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     map_area area = lobe_area(surface);
@@ -45,14 +60,8 @@ appearance fetch_appearance(surface_point surface) {
     result.level = FILTERED_LOBES ? area.level : 0.0;
     result.lobe_count = result.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     result.normal = unfiltered_normal(surface);
-    vec3 mean = vec3(0.0);
-    for (uint i = 0u; FILTERED_LOBES && i < BINS; ++i) {
-        result.lobes[i] = read_lobe(surface, area, i);
-        mean += result.lobes[i].part * result.lobes[i].normal;
-        result.lobe_count += result.lobes[i].part > 0.0 ? 1.0 : 0.0;
-    }
     if (FILTERED_LOBES)
-        result.normal = mean_direction(mean, vec3(0.0, 0.0, 1.0));
+        result.normal = mean_direction(take_lobes(result, surface, area), vec3(0.0, 0.0, 1.0));
     result.filtered = filtered_material(surface, result.normal, area);
     result.base = result.filtered;
     if (FILTERED_LOBES && near)

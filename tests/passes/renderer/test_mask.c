@@ -244,6 +244,54 @@ static void holes_lend_no_normals(void **state) {
     }
 }
 
+/// White and rough, with slight waves and holes of half of its area.
+static lobe_scene *square_with_waves(bool masked) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material;
+    lobe_material_default(&material);
+    material.metallic = 0;
+    material.double_sided = true;
+    material.alpha_mask = masked;
+    lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, 16, 16);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_UNORM, 16, 16);
+    for (uint32_t i = 0; i < 256; i++) {
+        float *normal = (float *)normals.texels + (size_t)4 * i;
+        normal[0] = 0.5f + 0.05f * (float)sin(M_PI / 8 * (i % 16));
+        normal[1] = 0.5f;
+        normal[2] = 1;
+        unsigned char *colour = (unsigned char *)colours.texels + (size_t)4 * i;
+        memset(colour, 255, 3);
+        colour[3] = (i + i / 16) % 2 ? 255 : 0;
+    }
+    material.normal_map = scene_add_map(scene, normals);
+    material.base_colour_map = scene_add_map(scene, colours);
+    material.normal_map.nearest = material.base_colour_map.nearest = true;
+    scene_add_square(scene, &material, 40, NULL);
+    scene_add_sun(scene, (double[]){0.3, 1, 0.1}, M_PI);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
+/// What is cut away is missing once: pixels that are kept are as bright as without the mask.
+static void kept_pixels_are_as_bright(void **state) {
+    static const char *const filters[] = {"toksvig", "tan", "fournier"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        double means[2][3];
+        for (int masked = 0; masked < 2; masked++) {
+            lobe_scene *scene = square_with_waves(masked);
+            picture_request request = {.filter = filters[i], .width = 32, .height = 32};
+            lobe_frame frame = draw_scene(*state, scene, &request);
+            mean_of_picture(&frame.radiance, means[masked]);
+            lobe_frame_free(&frame);
+            lobe_scene_destroy(&scene);
+        }
+        if (!(means[0][0] > 0 && fabs(means[1][0] / means[0][0] - 0.5) < 0.02))
+            fail_msg("%s: %g with a mask of half, %g without", filters[i], means[1][0],
+                     means[0][0]);
+    }
+}
+
 static size_t times_run(const lobe_frame *frame, const char *name) {
     size_t count = 0;
     for (size_t i = 0; i < frame->pass_count; i++)
@@ -286,6 +334,7 @@ int main(void) {
         cmocka_unit_test(near_edges_are_sharp),
         cmocka_unit_test(pictures_do_not_flicker),
         cmocka_unit_test(holes_lend_no_normals),
+        cmocka_unit_test(kept_pixels_are_as_bright),
         cmocka_unit_test(coverage_is_built_once_and_only_for_masks),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
