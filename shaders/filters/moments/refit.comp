@@ -638,15 +638,23 @@ void begin_blend(inout progress at) {
         state.old[thread()] = shown[thread()];
 }
 
+// Two Gaussians as one, which has their moments: on the way from one place to another it is broad
+// enough to cover both, and lobes change bins little by little.
+fit_gaussian join(fit_gaussian a, fit_gaussian b, float part) {
+    float sum = mix(a.place.z, b.place.z, part);
+    float weight = sum > 0.0 ? part * b.place.z / sum : part;
+    vec2 d = b.place.xy - a.place.xy;
+    vec3 spread = mix(a.spread.xyz, b.spread.xyz, weight) +
+                  weight * (1.0 - weight) * vec3(d * d, d.x * d.y);
+    return fit_gaussian(vec4(mix(a.place.xy, b.place.xy, weight), sum, 0.0), vec4(spread, 0.0));
+}
+
 // The bins that were found have been improved.
 void blend(inout progress at) {
     float part = float(at.round) / float(FITS_OF_BLEND);
     at.followed = at.likelihood;
-    if (thread() < constants.bins) {
-        fit_gaussian old = state.old[thread()], found = own_gaussian();
-        shown[thread()] =
-            fit_gaussian(mix(old.place, found.place, part), mix(old.spread, found.spread, part));
-    }
+    if (thread() < constants.bins)
+        shown[thread()] = join(state.old[thread()], own_gaussian(), part);
     at.begins = at.round == FITS_OF_BLEND;
     at.saves = at.shows = true;
 }

@@ -56,6 +56,18 @@ lobe_image one_deviating(uint32_t width, uint32_t height, double amount) {
     return image;
 }
 
+lobe_image cracked_bumps(uint32_t width, uint32_t height, double amount) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
+    for (uint32_t i = 0; i < width * height; i++) {
+        const uint32_t x = i % width, y = i / width;
+        const double u = M_PI / 4 * x, v = M_PI / 4 * y;
+        const bool cracked = 37 * i % 256 < 256 * amount;
+        set_slopes(&image, x, y, 0.2 * sin(u) * cos(v) + (cracked ? 0.7 * sin(5.0 * i) : 0),
+                   cracked ? 0.7 : 0.2 * sin(v));
+    }
+    return image;
+}
+
 lobe_image noisy_normals(uint32_t width, uint32_t height, double amount) {
     return random_normal_map(width, height, amount, 5);
 }

@@ -15,6 +15,8 @@ lobe_image three_facets(uint32_t width, uint32_t height, double amount);
 lobe_image one_slope(uint32_t width, uint32_t height, double amount);
 /// One texel among flat ones.
 lobe_image one_deviating(uint32_t width, uint32_t height, double amount);
+/// Low bumps; `amount`: the part of the texels that are steep.
+lobe_image cracked_bumps(uint32_t width, uint32_t height, double amount);
 lobe_image noisy_normals(uint32_t width, uint32_t height, double amount);
 
 /// Replaces the texels of a scene's image by those of another of its size, which it frees.

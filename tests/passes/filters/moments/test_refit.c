@@ -349,6 +349,21 @@ static void bins_of_a_flat_map_part_as_it_rises(void **state) {
     stop_following(&all);
 }
 
+/// Bins that are narrow on their way from one place to another have next to no lobes there: then a
+/// point lacks 1.6.
+static void bins_that_become_others_serve_the_lobes(void **state) {
+    enum { FRAMES = 23 };
+    struct moment_binning_constants bins;
+    following all;
+    follow_from(*state, cracked_bumps, 0, &all);
+    for (int i = 1; i <= FRAMES; i++)
+        bins = fit_next(&all, cracked_bumps, i / 120.0, true);
+    const double lack = lack_of(&all, &bins);
+    if (!(lack < 1))
+        fail_msg("a point lacks %g", lack);
+    stop_following(&all);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Hats
 
@@ -408,6 +423,7 @@ int main(void) {
         cmocka_unit_test(fits_begin_anew_where_there_is_none_to_follow),
         cmocka_unit_test(fits_begin_anew_where_texels_are_quite_others),
         cmocka_unit_test(bins_of_a_flat_map_part_as_it_rises),
+        cmocka_unit_test(bins_that_become_others_serve_the_lobes),
         cmocka_unit_test(hats_are_those_of_the_host),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
