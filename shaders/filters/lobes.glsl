@@ -57,6 +57,7 @@ struct appearance {
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
     vec4 distributions; // the mixture at the half vectors of the lights gathered last
+    float breadth;      // 1 - |r| of that lobe, widened by curvature
     float spread;       // [0, 1]: part of the breadth that is due to varying normals
     // Of the whole pixel.
     vec3 emission;
@@ -296,8 +297,8 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
     // Mixtures over an atlas already include the macro-surface's normals.
     fetched.variance = SPACE == SPACE_TANGENT ? isotropic_variance(surface.curvature) : 0.0;
-    float breadth = widened_complement(fetched.complement, fetched.variance);
-    fetched.spread = 1.0 - base_complement_share(breadth, mean.w);
+    fetched.breadth = widened_complement(fetched.complement, fetched.variance);
+    fetched.spread = 1.0 - base_complement_share(fetched.breadth, mean.w);
     if (may_see_level_0(lobe_map())) {
         fetched.base = level_0_material(surface, normals);
         fetched.diffuse_normal = mix(fetched.diffuse_normal, normals.mean, fetched.base_share);
@@ -326,9 +327,15 @@ appearance fetch_appearance(surface_point surface) {
 
 // The mean normal of the texels that reflect about `halfway`, for their cosines and masking. If the
 // texels' normals and the base lobes are both about Gaussian, with variances that add up to the
-// mixture's, the mean normal for a given sum divides it in the ratio of the variances.
+// mixture's, the mean normal for a given sum divides it in the ratio of the variances. In the tails
+// of GGX, beyond two deviations, it moves less: at a distance d their logarithm falls by 4/d.
 vec3 reflecting_normal(appearance fetched, vec3 halfway) {
-    vec3 sum = mix(fetched.filtered.normal, halfway, fetched.spread);
+    float part = fetched.spread;
+    if (keeps_shape() && DISTRIBUTION == DISTRIBUTION_GGX)
+        part *= fetched.breadth /
+                max(fetched.breadth,
+                    0.25 * difference_squared(halfway, fetched.filtered.normal));
+    vec3 sum = mix(fetched.filtered.normal, halfway, part);
     if (may_see_level_0(lobe_map()))
         sum = mix(sum, fetched.base.normal, fetched.base_share);
     return sum * inversesqrt(max(dot(sum, sum), 1e-30));

@@ -205,11 +205,17 @@ static void add_clusters(evaluation *e, const refinement_knobs *knobs) {
 }
 
 /// The mean normal of the texels that reflect about the half vector: between the mean normal and
-/// the half vector, by the part of the lobes' breadth that is the normals' own. `mean`: of the
-/// normals, and of 1 - |r| (shaders/filters/lobes.glsl).
-static void reflecting_normal(const double mean[4], const double half_vector[3], double normal[3]) {
-    double length = reference_length(mean);
-    double spread = 1 - mean[3] / (1 - (1 - mean[3]) * length);
+/// the half vector, by the part of the lobes' breadth that is the normals' own, less of it in the
+/// tails of GGX. `mean`: of the normals, and of 1 - |r| (shaders/filters/lobes.glsl).
+static void reflecting_normal(const lobe_material *material, const double mean[4],
+                              const double half_vector[3], double normal[3]) {
+    double length = reference_length(mean), square = 0;
+    double breadth = 1 - (1 - mean[3]) * length;
+    for (int i = 0; i < 3; i++)
+        square += pow(mean[i] / length - half_vector[i], 2);
+    if (material->distribution != LOBE_DISTRIBUTION_GGX)
+        square = 0;
+    double spread = (breadth - mean[3]) / fmax(breadth, 0.25 * square);
     for (int i = 0; i < 3; i++)
         normal[i] = (1 - spread) * mean[i] / length + spread * half_vector[i];
     reference_normalise(normal);
@@ -219,7 +225,7 @@ static void shade_mixture_of_microfacets(const evaluation *e, const double mean[
                                          double distribution, const double outgoing[3],
                                          const double incoming[3], double radiance[3]) {
     double normal[3];
-    reflecting_normal(mean, e->half_vector, normal);
+    reflecting_normal(e->material, mean, e->half_vector, normal);
     if (reference_dot(normal, incoming) <= 0 || reference_dot(normal, outgoing) <= 0)
         return;
     double value = microfacet_geometry(e->material, normal, outgoing, incoming, distribution);
