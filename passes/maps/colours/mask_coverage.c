@@ -9,23 +9,34 @@
 /// Of the thresholds from layer to layer: what is kept is interpolated between them.
 #define LARGEST_STEP 0.05f
 
-static uint32_t layers_of(const mask_range *range) {
-    return range->largest > range->least
-               ? 1 + (uint32_t)ceilf((range->largest - range->least) / LARGEST_STEP)
-               : 1;
+/// Layers of large maps together, unless that leaves fewer than LEAST_LAYERS.
+#define MOST_BYTES (256u << 20)
+enum { LEAST_LAYERS = 4, TEXEL_BYTES = 8 };
+
+static float most_layers(const device_map *map) {
+    // Half the size each way, and a third of that for the coarser levels.
+    const float bytes = TEXEL_BYTES / 3.0f * (float)map->width * (float)map->height;
+    return fmaxf((float)MOST_BYTES / bytes, LEAST_LAYERS);
+}
+
+static uint32_t layers_of(const device_map *map, const mask_range *range) {
+    if (!(range->largest > range->least))
+        return 1;
+    const float steps = ceilf((range->largest - range->least) / LARGEST_STEP);
+    return (uint32_t)fminf(1 + steps, most_layers(map));
 }
 
 bool passes_mask_varies(const device_scene *scene, const device_material *material) {
     if (!material->material->alpha_mask)
         return false;
     const mask_range range = passes_mask_range(scene, material);
-    return layers_of(&range) > 1;
+    return layers_of(&material->maps[MAP_BASE_COLOUR], &range) > 1;
 }
 
 struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
                                               const device_material *material) {
     const mask_range range = passes_mask_range(scene, material);
-    const float last = (float)layers_of(&range) - 1;
+    const float last = (float)layers_of(&material->maps[MAP_BASE_COLOUR], &range) - 1;
     return (struct mask_thresholds){
         .least = range.least,
         .layers_per_alpha = last / (range.largest - range.least),
@@ -35,8 +46,8 @@ struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
 
 static struct mask_constants
 constants_of(const device_scene *scene, const device_material *material, const mask_range *range) {
-    const uint32_t layers = layers_of(range);
     const device_map *map = &material->maps[MAP_BASE_COLOUR];
+    const uint32_t layers = layers_of(map, range);
     return (struct mask_constants){
         .width = map->width,
         .height = map->height,
@@ -53,7 +64,7 @@ reduced_map passes_mask_coverage(const filter_context *context, uint32_t index) 
     const device_material *material = &context->scene->materials[index];
     const mask_range range = passes_mask_range(context->scene, material);
     const struct mask_constants constants = constants_of(context->scene, material, &range);
-    const uint32_t layers = layers_of(&range);
+    const uint32_t layers = layers_of(&material->maps[MAP_BASE_COLOUR], &range);
     char name[64];
     snprintf(name, sizeof name, "kept colours of material %u", index);
     reduced_map map = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,
