@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "passes/context/sample_pattern.h"
+#include "tests/passes/support/shading_reference.h"
 #include "tests/reference/vector.h"
 
 lobe_image slope_plane_leaning_map(uint64_t seed) {
@@ -38,6 +39,19 @@ lobe_image slope_plane_bumpy_map(uint32_t extent, double slope) {
         texel[3] = 1;
     }
     return image;
+}
+
+double slope_plane_bumpy_radiance(const lobe_material *material, uint32_t extent, double slope,
+                                  const double outgoing[3], const double incoming[3]) {
+    const uint32_t texels = extent * extent;
+    double sum = 0;
+    for (uint32_t i = 0; i < texels; i++) {
+        double normal[3], radiance[3];
+        slope_plane_bumpy_normal(i, slope, normal);
+        shade_base_material(material, normal, outgoing, incoming, radiance);
+        sum += radiance[1] / texels;
+    }
+    return sum;
 }
 
 void slope_plane_direction(double degrees, double azimuth, double direction[3]) {

@@ -15,6 +15,9 @@ lobe_image slope_plane_leaning_map(uint64_t seed);
 lobe_image slope_plane_bumpy_map(uint32_t extent, double slope);
 /// The unit normal of one of its texels.
 void slope_plane_bumpy_normal(uint32_t texel, double slope, double normal[3]);
+/// The mean radiance of its texels under a sun of irradiance 1, green.
+double slope_plane_bumpy_radiance(const lobe_material *material, uint32_t extent, double slope,
+                                  const double outgoing[3], const double incoming[3]);
 
 void slope_plane_direction(double degrees, double azimuth, double direction[3]);
 

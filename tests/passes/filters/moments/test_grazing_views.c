@@ -11,19 +11,7 @@
 #include "tests/passes/support/slope_plane.h"
 #include "tests/reference/vector.h"
 
-enum { EXTENT = 64, TEXELS = EXTENT * EXTENT };
-
-static double mean_of_texels(const lobe_material *material, double slope, const double outgoing[3],
-                             const double incoming[3]) {
-    double sum = 0;
-    for (uint32_t i = 0; i < TEXELS; i++) {
-        double normal[3], radiance[3];
-        slope_plane_bumpy_normal(i, slope, normal);
-        shade_base_material(material, normal, outgoing, incoming, radiance);
-        sum += radiance[1] / TEXELS;
-    }
-    return sum;
-}
+enum { EXTENT = 64 };
 
 /// The azimuths and heights of the lights: above, opposite the viewer, behind it, and at its side.
 static void check_material(fixture *f, const lobe_material *material, double slope,
@@ -42,7 +30,7 @@ static void check_material(fixture *f, const lobe_material *material, double slo
         slope_plane_add_sun(scene, incoming, 1);
         slope_plane_draw(f, scene, "moments", NULL, found);
         lobe_scene_destroy(&scene);
-        double expected = mean_of_texels(material, slope, outgoing, incoming);
+        double expected = slope_plane_bumpy_radiance(material, EXTENT, slope, outgoing, incoming);
         if (!(fabs((double)found[1] / expected - 1) < tolerance))
             fail_msg("metallic %g, slopes of %g, seen at %g degrees, lit at %g: %g instead of %g",
                      (double)material->metallic, slope, views[i / 4], light[0], (double)found[1],
