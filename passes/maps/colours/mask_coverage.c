@@ -19,35 +19,26 @@ static float most_layers(const device_map *map) {
     return fmaxf((float)MOST_BYTES / bytes, LEAST_LAYERS);
 }
 
-static uint32_t layers_of(const device_map *map, const mask_range *range) {
-    if (!(range->largest > range->least))
-        return 1;
-    const float steps = ceilf((range->largest - range->least) / LARGEST_STEP);
-    return (uint32_t)fminf(1 + steps, most_layers(map));
-}
-
-bool passes_mask_varies(const device_scene *scene, const device_material *material) {
-    if (!material->material->alpha_mask)
-        return false;
-    const mask_range range = passes_mask_range(scene, material);
-    return layers_of(&material->maps[MAP_BASE_COLOUR], &range) > 1;
-}
-
 struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
                                               const device_material *material) {
     const mask_range range = passes_mask_range(scene, material);
-    const float last = (float)layers_of(&material->maps[MAP_BASE_COLOUR], &range) - 1;
+    const float length = range.largest - range.least;
+    if (!(length > 0))
+        return (struct mask_thresholds){.least = range.least};
+    const float most = floorf(most_layers(&material->maps[MAP_BASE_COLOUR]));
+    const float last = fminf(ceilf(length / LARGEST_STEP), most - 1);
     return (struct mask_thresholds){
-        .least = range.least,
-        .layers_per_alpha = last / (range.largest - range.least),
-        .last_layer = last,
-    };
+        .least = range.least, .layers_per_alpha = last / length, .last_layer = last};
 }
 
-static struct mask_constants
-constants_of(const device_scene *scene, const device_material *material, const mask_range *range) {
+bool passes_mask_varies(const device_scene *scene, const device_material *material) {
+    return material->material->alpha_mask && passes_mask_thresholds(scene, material).last_layer > 0;
+}
+
+static struct mask_constants constants_of(const device_scene *scene,
+                                          const device_material *material,
+                                          const struct mask_thresholds *thresholds) {
     const device_map *map = &material->maps[MAP_BASE_COLOUR];
-    const uint32_t layers = layers_of(map, range);
     return (struct mask_constants){
         .width = map->width,
         .height = map->height,
@@ -56,15 +47,15 @@ constants_of(const device_scene *scene, const device_material *material, const m
         .repeats_v = map->use->wrap_v == LOBE_SCENE_WRAP_REPEAT,
         .alpha = passes_mask_alpha(scene, material),
         .cutoff = material->material->alpha_cutoff,
-        .step = layers > 1 ? (range->largest - range->least) / (float)(layers - 1) : 0,
+        .step = thresholds->last_layer > 0 ? 1 / thresholds->layers_per_alpha : 0,
     };
 }
 
 reduced_map passes_mask_coverage(const filter_context *context, uint32_t index) {
     const device_material *material = &context->scene->materials[index];
-    const mask_range range = passes_mask_range(context->scene, material);
-    const struct mask_constants constants = constants_of(context->scene, material, &range);
-    const uint32_t layers = layers_of(&material->maps[MAP_BASE_COLOUR], &range);
+    const struct mask_thresholds thresholds = passes_mask_thresholds(context->scene, material);
+    const struct mask_constants constants = constants_of(context->scene, material, &thresholds);
+    const uint32_t layers = 1 + (uint32_t)thresholds.last_layer;
     char name[64];
     snprintf(name, sizeof name, "kept colours of material %u", index);
     reduced_map map = passes_reduced_map_declare(context->graph, name, LOBE_FORMAT_RGBA16_FLOAT,

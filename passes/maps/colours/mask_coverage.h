@@ -15,7 +15,7 @@ reduced_map passes_mask_coverage(const filter_context *context, uint32_t materia
 
 /// Whether the material has a mask, of which vertices' alpha makes several.
 bool passes_mask_varies(const device_scene *scene, const device_material *material);
-/// The thresholds of the layers, where it does.
+/// The thresholds of a mask's layers: of its only one, where it does not vary.
 struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
                                               const device_material *material);
 
