@@ -43,6 +43,7 @@ typedef struct engine_graph_resource {
     bool shared;    ///< other graphs may have its content
     bool permanent; ///< kept as long as the graph
     bool evolves;   ///< see lobe_buffer_description
+    uint32_t settles;
     const lobe_texture *texture;
     const lobe_buffer *buffer;
     const lobe_vulkan_image *host;         ///< copy in the arena

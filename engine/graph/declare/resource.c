@@ -159,9 +159,11 @@ static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
     for (engine_graph_retained *kept = graph->kept.retained; kept; kept = kept->next)
         if (strcmp(kept->name, resource->name) == 0 && kept->identity == dependency->identity) {
             kept->declared = true;
+            kept->settles = resource->settles;
             resource->retained = kept;
             dependency->recorded = kept->stamps;
             dependency->start_layouts = kept->layouts;
+            dependency->settled = kept->settled;
         }
     return true;
 }
@@ -177,6 +179,7 @@ static lobe_resource declare(lobe_graph *graph, engine_graph_resource *resource,
                                              .layers = resource->layers,
                                              .retained = retained,
                                              .evolves = resource->evolves,
+                                             .settles = resource->settles,
                                              .rests = resource->shared,
                                              .after = at_rest,
                                              .identity = identity_of(resource)};
@@ -235,6 +238,8 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
                                       .levels = 1,
                                       .size = description->size,
                                       .evolves = description->retained && description->evolves};
+    if (resource.evolves)
+        resource.settles = description->settles;
     return declare(graph, &resource, description->retained);
 }
 

@@ -27,6 +27,23 @@ static engine_stamp stamp_read(const engine_dependency_graph *graph,
     return stamp;
 }
 
+/// The stamp of a pass that modifies what settles, from the one it has without that: another in
+/// each frame until it has come to rest.
+static engine_stamp stamp_settling(engine_dependency_graph *graph,
+                                   const engine_dependency_access *access, engine_stamp change) {
+    engine_dependency_resource *resource = &graph->resources[access->resource];
+    const engine_settling *settled = &resource->settled;
+    if (access->kind != ENGINE_ACCESS_MODIFY || resource->settles == 0)
+        return change;
+    const bool begins = engine_access_source(graph, access, 0) != ENGINE_DEPENDENCY_NONE;
+    const bool rests = begins || (settled->change == change && settled->runs == resource->settles);
+    const uint32_t runs = rests                       ? resource->settles
+                          : settled->change == change ? settled->runs + 1
+                                                      : 0;
+    resource->settling = (engine_settling){change, runs};
+    return engine_stamp_mix(change, runs);
+}
+
 /// In topological order, so that the stamps of everything a pass reads are known.
 static void stamp_passes(engine_dependency_graph *graph) {
     for (uint32_t i = 0; i < graph->order_count; i++) {
@@ -41,6 +58,9 @@ static void stamp_passes(engine_dependency_graph *graph) {
             if (reads(access))
                 stamp = stamp_read(graph, access, stamp);
         }
+        for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
+             a = graph->accesses[a].next)
+            stamp = stamp_settling(graph, &graph->accesses[a], stamp);
         pass->stamp = stamp;
     }
 }

@@ -74,20 +74,28 @@ typedef struct engine_dependency_fault {
     uint32_t level, layer;
 } engine_dependency_fault;
 
+/// How far a pass that modifies what evolves is after the last change of something else.
+typedef struct engine_settling {
+    engine_stamp change; ///< digest of everything else that it reads
+    uint32_t runs;       ///< with the same
+} engine_settling;
+
 typedef struct engine_dependency_resource {
     const char *name; ///< borrowed
     uint32_t levels, layers;
-    bool imported; ///< has content from the start and is never written
-    bool retained; ///< its content is kept for the next frame
-    bool evolves;  ///< what a pass finds that modifies it does not count as a change
-    bool borrowed; ///< belongs to the host: passes may write it; it is returned after the frame
-    bool rests;    ///< what a frame uses of it is in the state `after` between frames
+    bool imported;    ///< has content from the start and is never written
+    bool retained;    ///< its content is kept for the next frame
+    bool evolves;     ///< what a pass finds that modifies it does not count as a change
+    uint32_t settles; ///< evolves: how often such a pass runs again after the last change
+    bool borrowed;    ///< belongs to the host: passes may write it; it is returned after the frame
+    bool rests;       ///< what a frame uses of it is in the state `after` between frames
     /// Borrowed: its uses before and after the frame. The layouts are LENT (UNDEFINED: it has no
     /// content) and RETURNED.
     engine_access_state before, after;
     engine_stamp identity; ///< digest of the description (format, extent); imported: of the content
     const engine_stamp *recorded;       ///< retained: stamp of each subresource's content, or NULL
     const engine_layout *start_layouts; ///< of each subresource at the start; NULL: undefined
+    engine_settling settled;            ///< settles: what the last pass that modified it left
 
     // Where a transient resource is in memory, for dependencies between those that share memory.
     bool placed;
@@ -100,6 +108,7 @@ typedef struct engine_dependency_resource {
     uint32_t last_writer;                   ///< pass that made `version`
     uint32_t first_subresource;             ///< index into the graph's arrays by subresource
     uint32_t first_position, last_position; ///< of its lifetime; NONE: no running pass uses it
+    engine_settling settling;               ///< what the pass of this frame leaves if it runs
 } engine_dependency_resource;
 
 typedef struct engine_dependency_pass {

@@ -47,7 +47,9 @@ typedef struct engine_graph_retained {
     bool separate;          ///< was invalidated: this graph's own from then on
     bool permanent;         ///< kept as long as the graph
     bool evolves;           ///< see lobe_buffer_description
-    bool exported;          ///< the host may have it in descriptors of its own
+    uint32_t settles;
+    engine_settling settled; ///< what evolves: see engine_dependency_resource
+    bool exported;           ///< the host may have it in descriptors of its own
     engine_graph_object object;
     engine_allocation allocation;
     engine_shared *shared; ///< how they find it; NULL: never

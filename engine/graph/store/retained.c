@@ -167,6 +167,13 @@ void lobe_graph_forget_buffer(lobe_graph *graph, const char *name) {
             clear_content(kept);
 }
 
+bool lobe_graph_settles(const lobe_graph *graph) {
+    const engine_graph_retained *kept = graph ? graph->kept.retained : NULL;
+    while (kept && !(kept->declared && kept->settled.runs < kept->settles))
+        kept = kept->next;
+    return kept != NULL;
+}
+
 // ---------------------------------------------------------------------------------------------
 // Creation
 
@@ -186,7 +193,8 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
         .layouts = lobe_allocate(allocator, subresources, sizeof *kept->layouts),
         .declared = true,
         .permanent = resource->permanent,
-        .evolves = resource->evolves};
+        .evolves = resource->evolves,
+        .settles = resource->settles};
     if (kept->name && kept->stamps && kept->layouts)
         return kept;
     lobe_release(kept->name);
@@ -281,8 +289,10 @@ void engine_graph_invalidate_retained(lobe_graph *graph) {
 
 static void set_stamp(lobe_graph *graph, uint32_t access, uint32_t subresource) {
     uint32_t resource = graph->frame.dependencies.accesses[access].resource;
-    graph->frame.resources[resource].retained->stamps[subresource] =
+    engine_graph_retained *kept = graph->frame.resources[resource].retained;
+    kept->stamps[subresource] =
         engine_dependency_content(&graph->frame.dependencies, access, resource, subresource);
+    kept->settled = graph->frame.dependencies.resources[resource].settling;
 }
 
 void engine_graph_stamp_retained(lobe_graph *graph) {

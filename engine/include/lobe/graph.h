@@ -111,6 +111,10 @@ typedef struct lobe_buffer_description {
     /// when something else that it reads has changed. Passes of other graphs do not share what is
     /// made with it. Marked as out of date, it is empty.
     bool evolves;
+    /// Of one that evolves: what needs several frames to come to rest. A pass that modifies it runs
+    /// again in as many frames after the last change of something else that it reads; not where it
+    /// found nothing, because a pass of the same frame had to write the buffer first.
+    uint32_t settles;
 } lobe_buffer_description;
 
 /// Declares an image or buffer that passes of this frame write. It has no content before that,
@@ -123,6 +127,10 @@ LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
 /// Whether passes of this frame may read all of a retained image or buffer before any has written
 /// it: all of it has content of earlier frames.
 LOBE_API bool lobe_graph_has_content(const lobe_graph *graph, lobe_resource resource);
+
+/// Whether something that the last frame declared still settles (lobe_buffer_description.settles):
+/// another frame like it would run passes, and may look different.
+LOBE_API bool lobe_graph_settles(const lobe_graph *graph);
 
 /// Creates a texture or buffer of a graph, for content that changes between frames. Only frames of
 /// this graph may use it, and only the graph's thread. What it is given, now and by

@@ -325,14 +325,15 @@ static void a_sum_needs_a_start(void **state) {
 
 /// "add" adds an upload to a buffer that evolves, and "look" adds 1 to it, into a retained buffer.
 /// Returns that.
-static float run_evolving(graph_fixture *fixture, float number) {
+static float run_settling(graph_fixture *fixture, float number, uint32_t settles) {
     float numbers[COUNT] = {0, number};
     lobe_graph_begin(fixture->graph);
     const lobe_resource source =
         lobe_graph_upload(fixture->graph, "source", numbers, sizeof numbers);
     lobe_resource sum = lobe_graph_buffer(
-        fixture->graph, &(lobe_buffer_description){
-                            .name = "sum", .size = BYTES, .retained = true, .evolves = true});
+        fixture->graph,
+        &(lobe_buffer_description){
+            .name = "sum", .size = BYTES, .retained = true, .evolves = true, .settles = settles});
     if (!lobe_graph_has_content(fixture->graph, sum)) {
         lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "empty");
         sum = lobe_pass_fill(pass, sum, (lobe_range){0}, (const float[4]){0});
@@ -349,6 +350,10 @@ static float run_evolving(graph_fixture *fixture, float number) {
     const float *data = lobe_graph_data(fixture->graph, result, NULL);
     assert_non_null(data);
     return data[1];
+}
+
+static float run_evolving(graph_fixture *fixture, float number) {
+    return run_settling(fixture, number, 0);
 }
 
 static void what_evolves_goes_on_when_something_else_changes(void **state) {
@@ -376,6 +381,29 @@ static void what_evolves_may_begin_again(void **state) {
     assert_true(run_evolving(fixture, 6) == 12);
     lobe_graph_invalidate(fixture->graph);
     assert_true(run_evolving(fixture, 6) == 7);
+}
+
+static void what_settles_runs_again_after_the_last_change(void **state) {
+    graph_fixture *fixture = *state;
+    // What begins has nothing to settle.
+    for (int i = 0; i < 2; i++) {
+        assert_true(run_settling(fixture, 2, 3) == 3);
+        assert_false(lobe_graph_settles(fixture->graph));
+    }
+    assert_true(run_settling(fixture, 5, 3) == 8);
+    assert_true(run_settling(fixture, 5, 3) == 13);
+    // Another change: from the start again.
+    assert_true(run_settling(fixture, 1, 3) == 14);
+    for (int i = 1; i <= 3; i++) {
+        assert_true(lobe_graph_settles(fixture->graph));
+        assert_true(run_settling(fixture, 1, 3) == (float)(14 + i));
+        assert_int_equal(graph_fixture_state(fixture, "add"), LOBE_PASS_RUN);
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_false(lobe_graph_settles(fixture->graph));
+        assert_true(run_settling(fixture, 1, 3) == 17);
+        assert_int_equal(graph_fixture_state(fixture, "add"), LOBE_PASS_SKIPPED);
+    }
 }
 
 static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
@@ -464,6 +492,7 @@ int main(void) {
         TEST(a_sum_needs_a_start),
         TEST(what_evolves_goes_on_when_something_else_changes),
         TEST(what_evolves_may_begin_again),
+        TEST(what_settles_runs_again_after_the_last_change),
         TEST(a_kept_pass_is_skipped_while_its_results_are_valid),
         TEST(a_failed_frame_changes_nothing),
         TEST(raster_passes_are_compared),

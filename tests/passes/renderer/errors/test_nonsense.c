@@ -234,6 +234,7 @@ static void graphs_that_are_none(void **state) {
     lobe_graph_invalidate(NULL);
     lobe_graph_invalidate_except(NULL, NULL);
     lobe_graph_forget_buffer(NULL, NULL);
+    assert_false(lobe_graph_settles(NULL));
     assert_null(lobe_graph_describe(NULL));
     assert_null(lobe_graph_dump_text(NULL));
     assert_null(lobe_graph_dump_graphviz(NULL));
