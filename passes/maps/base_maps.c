@@ -91,7 +91,7 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     char name[64];
     snprintf(name, sizeof name, "%s of material %u", kind->content, index);
     reduced_map map =
-        passes_seen_map_declare_if(context, index, name, format, layers, true, kind->groups);
+        passes_seen_map_declare_if(context, index, name, format, layers, kind->groups);
     map.groups = kind->groups;
     map.groups_offset = kind->groups_offset;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);

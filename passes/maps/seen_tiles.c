@@ -89,7 +89,7 @@ typedef struct tile_source {
     uint32_t width, height; ///< texels
     uint32_t first_mark, content;
     bool reduced;
-    lobe_resource condition; ///< version 0: none
+    lobe_resource condition, made_with; ///< version 0: none
 } tile_source;
 
 static void list_tiles(const filter_context *context, const tile_source *source, const char *name,
@@ -104,6 +104,7 @@ static void list_tiles(const filter_context *context, const tile_source *source,
         declare_numbers(graph, list_name, MAP_TILE_LEVELS * MAP_TILE_RECORD + 2 * count, false);
     map->keeps =
         lobe_graph_has_content(graph, states) && lobe_graph_has_content(graph, map->resource);
+    const bool made_with = source->made_with.version > 0;
     const struct tile_list_constants constants = {
         .first_mark = source->first_mark,
         .width = map->width,
@@ -114,6 +115,9 @@ static void list_tiles(const filter_context *context, const tile_source *source,
         .forgets = !map->keeps,
         .reduced = source->reduced,
         .conditional = source->condition.version > 0,
+        .made_with = made_with ? (uint32_t)(lobe_graph_buffer_size(graph, source->made_with) /
+                                            sizeof(uint32_t))
+                               : 0,
     };
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass, &(lobe_binding){.name = "mark_block", .resource = context->marks->marks});
@@ -121,6 +125,9 @@ static void list_tiles(const filter_context *context, const tile_source *source,
                    &(lobe_binding){.name = "condition_block",
                                    .resource = constants.conditional ? source->condition
                                                                      : context->marks->marks});
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "made_with_block",
+                              .resource = made_with ? source->made_with : context->marks->marks});
     const lobe_binding known = {.name = "state_block", .resource = states};
     (void)(map->keeps ? lobe_pass_modify(pass, &known) : lobe_pass_write(pass, &known));
     map->tiles =
@@ -131,26 +138,46 @@ static void list_tiles(const filter_context *context, const tile_source *source,
                                               .constants_size = sizeof constants});
 }
 
+static reduced_map declare_map(const filter_context *context, const char *name, lobe_format format,
+                               uint32_t layers, const tile_source *source) {
+    reduced_map map = passes_reduced_map_declare(context->graph, name, format, source->width,
+                                                 source->height, layers, !context->marks);
+    if (context->marks)
+        list_tiles(context, source, name, &map);
+    return map;
+}
+
+static tile_source source_of(const filter_context *context, uint32_t index, bool reduced) {
+    const device_material *material = &context->scene->materials[index];
+    const lobe_grid grid = passes_lobe_grid(material);
+    tile_source source = {.width = grid.width, .height = grid.height, .reduced = reduced};
+    if (context->marks) {
+        source.first_mark = context->marks->first_marks[index];
+        source.content = content_of(context, material);
+    }
+    return source;
+}
+
 reduced_map passes_seen_map_declare(const filter_context *context, uint32_t index, const char *name,
                                     lobe_format format, uint32_t layers, bool reduced) {
-    return passes_seen_map_declare_if(context, index, name, format, layers, reduced,
-                                      (lobe_resource){0});
+    const tile_source source = source_of(context, index, reduced);
+    return declare_map(context, name, format, layers, &source);
 }
 
 reduced_map passes_seen_map_declare_if(const filter_context *context, uint32_t index,
                                        const char *name, lobe_format format, uint32_t layers,
-                                       bool reduced, lobe_resource condition) {
-    const device_material *material = &context->scene->materials[index];
-    const lobe_grid grid = passes_lobe_grid(material);
-    reduced_map map = passes_reduced_map_declare(context->graph, name, format, grid.width,
-                                                 grid.height, layers, !context->marks);
-    if (!context->marks)
-        return map;
-    const tile_source source = {
-        grid.width, grid.height, context->marks->first_marks[index], content_of(context, material),
-        reduced,    condition};
-    list_tiles(context, &source, name, &map);
-    return map;
+                                       lobe_resource condition) {
+    tile_source source = source_of(context, index, true);
+    source.condition = condition;
+    return declare_map(context, name, format, layers, &source);
+}
+
+reduced_map passes_seen_map_declare_with(const filter_context *context, uint32_t index,
+                                         const char *name, lobe_format format, uint32_t layers,
+                                         bool reduced, lobe_resource made_with) {
+    tile_source source = source_of(context, index, reduced);
+    source.made_with = made_with;
+    return declare_map(context, name, format, layers, &source);
 }
 
 reduced_map passes_seen_image_declare(const filter_context *context,
@@ -164,7 +191,12 @@ reduced_map passes_seen_image_declare(const filter_context *context,
     if (first == NO_TILE_MARKS)
         return map;
     const tile_source source = {
-        own->width, own->height, first, content_of_image(context, own->image), true, {0}};
+        .width = own->width,
+        .height = own->height,
+        .first_mark = first,
+        .content = content_of_image(context, own->image),
+        .reduced = true,
+    };
     list_tiles(context, &source, name, &map);
     return map;
 }

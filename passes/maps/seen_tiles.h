@@ -36,11 +36,16 @@ uint32_t passes_map_tile_levels(uint32_t width, uint32_t height, uint32_t first_
 reduced_map passes_seen_map_declare(const filter_context *context, uint32_t material,
                                     const char *name, lobe_format format, uint32_t layers,
                                     bool reduced);
-/// The same where a pass of this frame decides whether there is a map: no tile is listed where the
-/// first number of the buffer `condition` is 0. Version 0: there is a map.
+/// The same, reduced, where a pass of this frame decides whether there is a map: no tile is listed
+/// where the first number of the buffer `condition` is 0. Version 0: there is a map.
 reduced_map passes_seen_map_declare_if(const filter_context *context, uint32_t material,
                                        const char *name, lobe_format format, uint32_t layers,
-                                       bool reduced, lobe_resource condition);
+                                       lobe_resource condition);
+/// The same where tiles depend on a buffer, too, which passes of this frame may write: they are
+/// made again when its content is another.
+reduced_map passes_seen_map_declare_with(const filter_context *context, uint32_t material,
+                                         const char *name, lobe_format format, uint32_t layers,
+                                         bool reduced, lobe_resource made_with);
 /// The same for the filtered image that a material's map is made of, which has one layer and is
 /// reduced from the image.
 reduced_map passes_seen_image_declare(const filter_context *context,

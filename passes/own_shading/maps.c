@@ -250,7 +250,7 @@ lobe_result lobe_maps_record(lobe_maps *maps, const lobe_vulkan_submission *subm
     lobe_graph_begin(maps->graph);
     declare(maps);
     result = lobe_graph_submit(maps->graph, submission);
-    maps->changed = result != LOBE_OK;
+    maps->changed = result != LOBE_OK || lobe_graph_settles(maps->graph);
     return result;
 }
 

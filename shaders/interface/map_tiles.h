@@ -32,8 +32,9 @@ struct tile_list_constants {
     uint forgets;     // 1: no tile has been built yet
     uint reduced;     // 1: tiles are built from those of the finer level; 0: from the base maps
     uint conditional; // 1: no tile is needed where the condition's first number is 0
+    uint made_with;   // numbers of a buffer that tiles are made with; those count as content, too
 };
-INTERFACE_SIZE(tile_list_constants, 36)
+INTERFACE_SIZE(tile_list_constants, 40)
 INTERFACE_OFFSET(tile_list_constants, width, 4)
 INTERFACE_OFFSET(tile_list_constants, height, 8)
 INTERFACE_OFFSET(tile_list_constants, levels, 12)
@@ -42,6 +43,7 @@ INTERFACE_OFFSET(tile_list_constants, content, 20)
 INTERFACE_OFFSET(tile_list_constants, forgets, 24)
 INTERFACE_OFFSET(tile_list_constants, reduced, 28)
 INTERFACE_OFFSET(tile_list_constants, conditional, 32)
+INTERFACE_OFFSET(tile_list_constants, made_with, 36)
 
 struct tile_level {
     uint first_mark; // of the level's tiles

@@ -61,13 +61,16 @@ struct moment_binning_constants {
     // is rough.
     float4 hats;
     // x: mass of a texel's lobes; y: texel of the maps of the bins' colours, which times the
-    // material's largest_colour is their unit.
+    // material's largest_colour is their unit; z: the part [0, 1) of each lobe that is still shared
+    // as by the old bins.
     float4 largest;
     moment_bin bins[MOMENT_MAXIMUM_BINS];
+    moment_bin old_bins[MOMENT_MAXIMUM_BINS]; // without range
 };
-INTERFACE_SIZE(moment_binning_constants, 320)
+INTERFACE_SIZE(moment_binning_constants, 608)
 INTERFACE_OFFSET(moment_binning_constants, hats, 0)
 INTERFACE_OFFSET(moment_binning_constants, largest, 16)
 INTERFACE_OFFSET(moment_binning_constants, bins, 32)
+INTERFACE_OFFSET(moment_binning_constants, old_bins, 320)
 
 #endif

@@ -85,8 +85,12 @@ struct fit_state {
     float middle_y;
     float narrowest;
     float broadest;
+    uint texels; // a number of the lobes that were fitted to
+    uint quiet;  // fits since they changed
+    uint rest;   // see refit.comp
+    float part;  // of the way from the old ones to the other
 };
-INTERFACE_SIZE(fit_state, 624)
+INTERFACE_SIZE(fit_state, 640)
 INTERFACE_OFFSET(fit_state, other, 192)
 INTERFACE_OFFSET(fit_state, old, 384)
 INTERFACE_OFFSET(fit_state, bins, 576)
@@ -101,5 +105,14 @@ INTERFACE_OFFSET(fit_state, middle_x, 608)
 INTERFACE_OFFSET(fit_state, middle_y, 612)
 INTERFACE_OFFSET(fit_state, narrowest, 616)
 INTERFACE_OFFSET(fit_state, broadest, 620)
+INTERFACE_OFFSET(fit_state, texels, 624)
+INTERFACE_OFFSET(fit_state, quiet, 628)
+INTERFACE_OFFSET(fit_state, rest, 632)
+INTERFACE_OFFSET(fit_state, part, 636)
+
+// Once texels have stayed the same in so many fits, bins that become others do so in at most so
+// many more, then become those of a fit anew in as many.
+#define FIT_RESTS_AFTER  3
+#define FITS_OF_SETTLING 32
 
 #endif

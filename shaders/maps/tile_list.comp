@@ -16,7 +16,17 @@ layout(set = 0, binding = 1, std430) buffer state_block { uint states[]; };
 layout(set = 0, binding = 2, std430) buffer tile_list_block { uint tile_list[]; };
 layout(set = 0, binding = 3, std430) readonly buffer condition_block { uint condition[]; };
 
+layout(set = 0, binding = 4, std430) readonly buffer made_with_block { uint made_with[]; };
+
 shared uint appended;
+
+// That of a tile that is made now, above 0: FNV-1a (Fowler, Noll, Vo).
+uint content_now() {
+    uint number = map.content;
+    for (uint i = 0u; i < map.made_with; ++i)
+        number = (number ^ made_with[i]) * 16777619u;
+    return max(number, 1u);
+}
 
 ivec2 extent_of(int level) {
     return extent_of_level(ivec2(map.width, map.height), level);
@@ -51,7 +61,7 @@ void write_record(int level, uint first) {
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, all = 0u;
+    uint local = gl_LocalInvocationIndex, all = 0u, content = content_now();
     bool wanted = map.conditional == 0u || condition[0] != 0u;
     for (int level = 0; level < int(map.levels); ++level)
         all += tile_count(level);
@@ -72,10 +82,10 @@ void main() {
                 needed = serves_needed(tile, level, flags + end);
             tile_list[flags + first + i] = needed ? 1u : 0u;
             uint built = map.forgets != 0u ? 0u : states[first + i];
-            if (needed && built != map.content) {
+            if (needed && built != content) {
                 tile_list[flags + all + first + atomicAdd(appended, 1u)] =
                     uint(tile.x) | uint(tile.y) << 16;
-                built = map.content;
+                built = content;
             }
             states[first + i] = built;
         }

@@ -66,7 +66,8 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
     const uint32_t layers = passes_bin_layers(material, partition->bins, partition->own_colours);
     const uint32_t samples = passes_texel_samples(context);
     moment_map result = {.format = format, .bins = bins};
-    result.map = passes_seen_map_declare(context, index, name, format, layers, samples == 0);
+    result.map =
+        passes_seen_map_declare_with(context, index, name, format, layers, samples == 0, bins);
     add_level(context, index, partition, &result, 0, finest_samples(material, samples));
     for (uint32_t level = 1; samples > 0 && level < result.map.levels; level++)
         add_level(context, index, partition, &result, level, samples);

@@ -41,13 +41,16 @@ static void name_state(uint32_t index, char name[64]) {
     snprintf(name, 64, "fit of material %u", index);
 }
 
-static lobe_resource declare_state(const filter_context *context, uint32_t index) {
+static lobe_resource declare_state(const filter_context *context, uint32_t index, bool follows) {
     char name[64];
     name_state(index, name);
     return lobe_graph_buffer(
-        context->graph,
-        &(lobe_buffer_description){
-            .name = name, .size = sizeof(struct fit_state), .retained = true, .evolves = true});
+        context->graph, &(lobe_buffer_description){
+                            .name = name,
+                            .size = sizeof(struct fit_state),
+                            .retained = true,
+                            .evolves = true,
+                            .settles = follows ? FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1) : 0});
 }
 
 /// Gives the pass what the last fit left: zeros, if there was none. Where nothing of it counts,
@@ -80,7 +83,7 @@ static lobe_resource declare_bins(const filter_context *context, uint32_t index)
 lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
                                   const moment_partition *partition, const refit_request *request) {
     lobe_resource bins = declare_bins(context, index);
-    const lobe_resource state = declare_state(context, index);
+    const lobe_resource state = declare_state(context, index, request->follows);
     // Declared in any case, so that frames that keep the bins free nothing.
     cell_survey survey = passes_moment_cell_survey_declare(context, index);
     if (request->keeps && lobe_graph_has_content(context->graph, bins))

@@ -61,7 +61,8 @@ LOBE_API lobe_result lobe_maps_update(lobe_maps *maps, const lobe_scene_changes 
 
 /// Records what must be built into the host's command buffer, or submits it, as for
 /// lobe_graph_submit. Nothing is recorded (or submitted) if nothing has changed since the last
-/// recording, no image is on the device and no material has waves. Whatever the host records or
+/// recording, no image is on the device, no material has waves, and nothing made of texels that
+/// moved still comes to rest (lobe_graph_settles). Whatever the host records or
 /// submits later may read the maps. Errors: as lobe_renderer_render; the command buffer must not be
 /// submitted then.
 LOBE_API lobe_result lobe_maps_record(lobe_maps *maps, const lobe_vulkan_submission *submission);

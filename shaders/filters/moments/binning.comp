@@ -41,10 +41,16 @@ float colour_unit() {
     return binning.largest.y * material.largest_colour;
 }
 
-void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
+moment_bin bin_of(int index, bool old) {
+    if (old)
+        return binning.old_bins[index];
+    return binning.bins[index];
+}
+
+void share_among(plane_lobe lobe, bool old, out float members[MOMENT_MAXIMUM_BINS]) {
     float most = -1e30;
     for (int i = 0; i < BINS; ++i) {
-        members[i] = bin_likelihood(binning.bins[i], lobe.place, lobe.variance);
+        members[i] = bin_likelihood(bin_of(i, old), lobe.place, lobe.variance);
         most = max(most, members[i]);
     }
     float sum = 0.0;
@@ -54,6 +60,16 @@ void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
     }
     for (int i = 0; i < BINS; ++i)
         members[i] /= sum;
+}
+
+void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
+    share_among(lobe, false, members);
+    if (binning.largest.z == 0.0)
+        return;
+    float old[MOMENT_MAXIMUM_BINS];
+    share_among(lobe, true, old);
+    for (int i = 0; i < BINS; ++i)
+        members[i] = mix(members[i], old[i], binning.largest.z);
 }
 
 // Bin 0 gets rough lobes; the others share the rest by direction.

@@ -49,8 +49,12 @@ const uint MOST_ITERATIONS = 60000;
 const float GAIN = 0.02;
 
 // From one fit to the next: how many rounds of a search for better bins there are, and in how many
-// fits bins become those.
-const uint ROUNDS_OF_SEARCH = 2, FITS_OF_BLEND = 16;
+// fits bins become those at most.
+const uint ROUNDS_OF_SEARCH = 2, FITS_OF_BLEND = 128;
+
+// On the way from bins to others: by how much of its norm the Gaussian of any changes from one fit
+// to the next, if there are fits enough.
+const float STEP = 0.01;
 
 // Where the logarithm of a point's likelihood under the bins changes by so much from one fit to the
 // next, the texels are others, and nothing of earlier fits counts.
@@ -63,11 +67,16 @@ const float LEAST_PART = 1e-9;
 // that.
 const float MARGIN = 1.25;
 
-shared moment_bin bins[MOMENT_MAXIMUM_BINS];
-shared vec4 gaussians[MOMENT_MAXIMUM_BINS]; // of the bins: covariance (xx, yy, xy), and their part
+// After the bins, where these become others, come the old ones.
+const uint OLD_BINS = MOMENT_MAXIMUM_BINS;
+shared moment_bin bins[2 * MOMENT_MAXIMUM_BINS];
+shared vec4 gaussians[2 * MOMENT_MAXIMUM_BINS]; // of the bins: covariance (xx, yy, xy), their part
 shared moment_bin kept_bins[MOMENT_MAXIMUM_BINS];
 shared vec4 kept_gaussians[MOMENT_MAXIMUM_BINS];
 shared fit_gaussian shown[MOMENT_MAXIMUM_BINS]; // where an earlier fit goes on: what comes out
+shared fit_gaussian old[MOMENT_MAXIMUM_BINS], other[MOMENT_MAXIMUM_BINS]; // while it becomes others
+shared float lengths[THREADS]; // of parts of the way
+shared uint parts_of_number[THREADS];
 
 uint thread() {
     return gl_LocalInvocationID.x;
@@ -179,16 +188,17 @@ struct bin_likelihoods {
     float most, sum; // the sum of all is sum exp(most)
 };
 
-float likelihood_of(vec4 lobe, uint index, uint count) {
-    return index < count ? bin_likelihood(bins[index], lobe.xy, lobe.z) : -1e30;
+float likelihood_of(vec4 lobe, uint index, uint first, uint count) {
+    return index < count ? bin_likelihood(bins[first + index], lobe.xy, lobe.z) : -1e30;
 }
 
-// In threes, for fewer iterations.
-bin_likelihoods likelihoods_of(vec4 lobe, uint index, uint count) {
+// Of the bins from the first one on. In threes, for fewer iterations.
+bin_likelihoods likelihoods_of(vec4 lobe, uint index, uint first, uint count) {
     bin_likelihoods result = bin_likelihoods(0.0, -1e30, 0.0);
     for (uint i = 0; i < count; i += 3) {
-        vec3 values = vec3(likelihood_of(lobe, i, count), likelihood_of(lobe, i + 1, count),
-                           likelihood_of(lobe, i + 2, count));
+        vec3 values = vec3(likelihood_of(lobe, i, first, count),
+                           likelihood_of(lobe, i + 1, first, count),
+                           likelihood_of(lobe, i + 2, first, count));
         float most = max(max(values.x, values.y), max(values.z, result.most));
         result.sum = result.sum * exp(result.most - most) + dot(exp(values - most), vec3(1.0));
         result.most = most;
@@ -250,13 +260,19 @@ const uint BY_DISTANCE = 2; // improve bins of equal steps of the distance from 
 const uint BY_WIDTH = 3;    // and of the logarithm of the variance
 const uint FOLLOW = 4;      // improve the last fit's bins
 const uint BLEND = 5;       // improve those that a search has found, which the bins become
-const uint MEASURE = 6;     // nothing: the numbers of the best of all are wanted
-const uint UNBEGUN = 7;     // of a search: the next fit begins it
+const uint BLEND_OLD = 6;   // and those from which they do
+const uint MEASURE = 7;     // nothing: the numbers of the best of all are wanted
+const uint UNBEGUN = 8;     // of a search: the next fit begins it
 
 // Without first bins, adding bins comes first.
 uint first_step() {
     return constants.has_first != 0 ? FROM_FIRST : GROW;
 }
+
+// How near bins are to those of a fit anew to the same lobes:
+const uint MOVES = 0;
+const uint SETTLES = 1; // they become these
+const uint RESTS = 2;   // they are these
 
 struct progress {
     uint step, round;
@@ -264,11 +280,19 @@ struct progress {
     float likelihood; // of the last round
     float score;      // the same
     float kept_score; // of the bins kept
+    float kept_likelihood;
     bool gained;      // those are not from the first bins
     uint iterations;  // of a thread's loops
     // Where an earlier fit goes on:
     bool follows;
+    bool settles;   // a fit anew, which the bins become
+    uint texels;    // a number of the lobes
+    uint quiet;     // fits since they changed
+    uint rest;      // how near bins are to those of a fit anew to the same lobes
+    float part;     // of the way from old bins to others
+    float old;      // part of each lobe that is shared as by the old bins
     float followed; // likelihood under the bins that are followed
+    uint next;      // step at which the next fit goes on
     float shown_score;
     uint left;      // rounds of the search in this fit
     // What comes before the next round: in one place, because lavapipe compiles this shader three
@@ -292,16 +316,29 @@ uint sorted_bin(vec4 lobe, progress at) {
     return uint(clamp(part, 0.0, 0.999) * float(at.count));
 }
 
+float member_of(bin_likelihoods all) {
+    return exp(all.own - all.most) / all.sum;
+}
+
+// That of the places in a bin.
+vec2 origin_of(uint index, progress at) {
+    return at.old > 0.0 ? shown[index].place.xy : bins[index].centre.xy;
+}
+
 // Fills the numbers of one bin.
 void visit(uint index, progress at, plane_range range) {
     vec4 sums = vec4(0.0), moments = vec4(0.0), largest = vec4(0.0, 0.0, 0.0, -1e30);
     float worst = -1e30, worst_lobe = 0.0, overlap = 0.0;
-    vec2 centre = bins[index].centre.xy;
+    vec2 centre = origin_of(index, at);
     uint corners = PARTITION == PARTITION_FITTED ? 8 : 0;
     for (uint n = thread(); n < constants.lobes + corners; n += THREADS) {
         vec4 lobe = n < constants.lobes ? lobes[n] : corner_of(range, n - constants.lobes);
-        bin_likelihoods all = likelihoods_of(lobe, index, at.count);
-        float member = exp(all.own - all.most) / all.sum;
+        bin_likelihoods all = likelihoods_of(lobe, index, 0, at.count);
+        float member = member_of(all);
+        if (at.old > 0.0) {
+            bin_likelihoods old = likelihoods_of(lobe, index, OLD_BINS, at.count);
+            member = mix(member, member_of(old), at.old);
+        }
         if (sorts(at))
             member = sorted_bin(lobe, at) == index ? 1.0 : 0.0;
         vec2 d = lobe.xy - centre;
@@ -387,8 +424,12 @@ fit_gaussian own_gaussian() {
     return fit_gaussian(vec4(bins[thread()].centre.xy, own.w, 0.0), vec4(own.xyz, 0.0));
 }
 
+void set_bin_of(uint index, fit_gaussian gaussian) {
+    set_bin(index, gaussian.place.z, gaussian.place.xy, gaussian.spread.xyz);
+}
+
 void set_own_bin(fit_gaussian gaussian) {
-    set_bin(thread(), gaussian.place.z, gaussian.place.xy, gaussian.spread.xyz);
+    set_bin_of(thread(), gaussian);
 }
 
 // Those that the host made, and the Gaussians that they are of.
@@ -408,12 +449,12 @@ void take_first_bins() {
 // The units of the bins' moments
 
 // The origin is the bin's centre, so that the moments of a small bin keep their digits.
-void set_fitted_ranges(uint index, plane_range range) {
+void set_fitted_ranges(uint index, vec2 origin, plane_range range) {
     // A bin without any lobe has units, too.
     float reach = max(MARGIN * numbers[index][REACH], 1e-3);
     float broadest = max(MARGIN * numbers[index][BROADEST], 1e-6);
     float sharpest = max(MARGIN * numbers[index][SHARPEST], 1e-3);
-    bins[index].range = vec4(bins[index].centre.xy, reach, min(sharpest, range.sharpest));
+    bins[index].range = vec4(origin, reach, min(sharpest, range.sharpest));
     bins[index].shape.w = min(broadest, range.broadest);
 }
 
@@ -446,6 +487,7 @@ void keep_bins(inout progress at) {
         kept_gaussians[thread()] = gaussians[thread()];
     }
     at.kept_score = at.score;
+    at.kept_likelihood = at.likelihood;
 }
 
 // When a single bin has all lobes.
@@ -558,13 +600,11 @@ void follow(inout progress at) {
     at.step = state.step == BLEND ? BLEND : FOLLOW;
     at.round = at.step == BLEND ? state.round : 0;
     at.count = constants.bins;
-    at.likelihood = at.followed = state.likelihood;
     if (thread() < constants.bins) {
-        shown[thread()] = state.shown[thread()];
         if (at.step == BLEND)
-            set_own_bin(state.other[thread()]);
+            set_own_bin(other[thread()]);
         else
-            set_own_bin(state.shown[thread()]);
+            set_own_bin(shown[thread()]);
     }
 }
 
@@ -584,11 +624,11 @@ void go_on_with_search(inout progress at) {
 }
 
 // Leaves the search to the next fit.
-void save_search(progress at) {
+void save_search(inout progress at) {
     if (thread() < constants.bins)
         state.other[thread()] = own_gaussian();
+    at.next = at.step;
     if (thread() == 0) {
-        state.step = at.step;
         state.round = at.round;
         state.count = at.count;
         state.other_likelihood = at.likelihood;
@@ -600,11 +640,21 @@ void save_search(progress at) {
     }
 }
 
+// Of what there is of the old bins at a part of the way: at both ends, where a little of them makes
+// narrow bins broad or leaves them so, it changes slowly.
+float rest_of_old(float part) {
+    return 1.0 - part * part * (3.0 - 2.0 * part);
+}
+
 void measure_shown(inout progress at) {
+    bool becomes_other = at.next == BLEND;
     at.step = MEASURE;
     at.count = constants.bins;
-    if (thread() < constants.bins)
-        set_own_bin(shown[thread()]);
+    at.old = becomes_other ? rest_of_old(at.part) : 0.0;
+    if (thread() >= constants.bins)
+        return;
+    set_own_bin(becomes_other ? other[thread()] : shown[thread()]);
+    set_bin_of(OLD_BINS + thread(), old[thread()]);
 }
 
 // Gives each bin found the number of one that is shown and near.
@@ -629,17 +679,25 @@ void order_found() {
     }
 }
 
-void begin_blend(inout progress at) {
-    at.followed = at.likelihood;
+// `likelihood`: of the lobes under the bins found.
+void begin_blend(inout progress at, float likelihood) {
+    at.followed = likelihood;
     barrier();
     if (thread() == 0)
         order_found();
-    if (thread() < constants.bins)
-        state.old[thread()] = shown[thread()];
+    barrier();
+    if (thread() < constants.bins) {
+        old[thread()] = shown[thread()];
+        other[thread()] = own_gaussian();
+    }
+    at.next = BLEND;
+    at.round = 0;
+    at.part = 0.0;
+    at.shows = true;
 }
 
-// Two Gaussians as one, which has their moments: on the way from one place to another it is broad
-// enough to cover both, and lobes change bins little by little.
+// Two Gaussians as one, which has their moments, as bins have those of the lobes that they share as
+// before and of the others.
 fit_gaussian join(fit_gaussian a, fit_gaussian b, float part) {
     float sum = mix(a.place.z, b.place.z, part);
     float weight = sum > 0.0 ? part * b.place.z / sum : part;
@@ -649,14 +707,72 @@ fit_gaussian join(fit_gaussian a, fit_gaussian b, float part) {
     return fit_gaussian(vec4(mix(a.place.xy, b.place.xy, weight), sum, 0.0), vec4(spread, 0.0));
 }
 
-// The bins that were found have been improved.
+fit_gaussian way(uint index, float part) {
+    return join(old[index], other[index], 1.0 - rest_of_old(min(part, 1.0)));
+}
+
+// The integral of the product of two bins' Gaussians.
+float product(fit_gaussian a, fit_gaussian b) {
+    return a.place.z * b.place.z *
+           evaluate_gaussian(a.place.xy - b.place.xy, a.spread.xyz + b.spread.xyz);
+}
+
+// Of the bin that changes most. (Of the sum of all, bins with few lobes, which may be all that some
+// lights see, hardly tell.)
+float difference(float first, float second) {
+    float most = 0.0;
+    for (uint i = 0; i < constants.bins; ++i) {
+        fit_gaussian a = way(i, first), b = way(i, second);
+        float before = product(a, a), after = product(b, b);
+        float square = max(before + after - 2.0 * product(a, b), 0.0);
+        most = max(most, square / max(max(before, after), 1e-30));
+    }
+    return sqrt(most);
+}
+
+// The part of the way at the next fit: the rest of it in steps of equal length.
+float next_part(progress at, uint fits) {
+    float step = (1.0 - at.part) / float(THREADS), whole = 0.0, length = 0.0;
+    float begin = at.part + float(thread()) * step;
+    lengths[thread()] = difference(begin, begin + step);
+    barrier();
+    for (uint i = 0; i < THREADS; ++i)
+        whole += lengths[i];
+    float wanted = max(STEP, whole / float(max(fits, at.round + 1) - at.round));
+    uint count = 0;
+    for (; count < THREADS && length + lengths[count] <= wanted; ++count)
+        length += lengths[count];
+    if (count == THREADS)
+        return 1.0;
+    return at.part + (float(count) + (wanted - length) / lengths[count]) * step;
+}
+
 void blend(inout progress at) {
-    float part = float(at.round) / float(FITS_OF_BLEND);
-    at.followed = at.likelihood;
+    barrier();
+    at.part = next_part(at, at.quiet >= FIT_RESTS_AFTER ? FITS_OF_SETTLING : FITS_OF_BLEND);
+    ++at.round;
     if (thread() < constants.bins)
-        shown[thread()] = join(state.old[thread()], own_gaussian(), part);
-    at.begins = at.round == FITS_OF_BLEND;
-    at.saves = at.shows = true;
+        shown[thread()] = at.part == 1.0 ? other[thread()] : way(thread(), at.part);
+    if (at.part == 1.0 && at.rest == SETTLES)
+        at.rest = RESTS;
+    at.next = at.part == 1.0 ? UNBEGUN : BLEND;
+    at.shows = true;
+}
+
+// The bins that were found have been improved.
+void improve_old(inout progress at) {
+    at.followed = at.likelihood;
+    at.step = BLEND_OLD;
+    if (thread() < constants.bins) {
+        other[thread()] = own_gaussian();
+        set_own_bin(old[thread()]);
+    }
+}
+
+void end_blend(inout progress at) {
+    if (thread() < constants.bins)
+        old[thread()] = own_gaussian();
+    blend(at);
 }
 
 void end_round(inout progress at, bool settled) {
@@ -671,8 +787,9 @@ void end_round(inout progress at, bool settled) {
 void end_round_of_search(inout progress at) {
     --at.left;
     if (at.step == BLEND)
-        begin_blend(at);
-    at.saves = at.shows = at.step == BLEND || at.left == 0;
+        begin_blend(at, at.likelihood);
+    else
+        at.saves = at.shows = at.left == 0;
 }
 
 void end_following(inout progress at) {
@@ -687,9 +804,10 @@ void end_following(inout progress at) {
 
 void take_round(inout progress at) {
     float total = total_weight(at.count), former = at.likelihood;
-    uint lost = at.step == FOLLOW ? at.count : lost_bin(at.count, total);
+    bool follows = at.step == FOLLOW || at.step == BLEND || at.step == BLEND_OLD;
+    uint lost = follows ? at.count : lost_bin(at.count, total);
     at.likelihood = numbers[0][LIKELIHOOD] / total;
-    ++at.round;
+    at.round += follows ? 0 : 1;
     at.iterations += iterations_of_round(at.count);
     bool settled = at.round > 2 && lost == at.count && at.likelihood <= former + 1e-4;
     at.score = score_of(at, total);
@@ -705,7 +823,9 @@ void take_round(inout progress at) {
     if (at.step == FOLLOW)
         end_following(at);
     else if (at.step == BLEND)
-        blend(at);
+        improve_old(at);
+    else if (at.step == BLEND_OLD)
+        end_blend(at);
     else {
         end_round(at, settled);
         if (at.follows)
@@ -726,14 +846,69 @@ void prepare_round(inout progress at) {
     at.begins = at.saves = at.shows = false;
 }
 
+// A number of the lobes: FNV-1a (Fowler, Noll, Vo).
+uint number_of_lobes() {
+    uint number = 2166136261u;
+    for (uint n = thread(); n < constants.lobes; n += THREADS)
+        for (int i = 0; i < 4; ++i)
+            number = (number ^ floatBitsToUint(lobes[n][i])) * 16777619u;
+    parts_of_number[thread()] = number;
+    barrier();
+    for (uint n = 0; n < THREADS; ++n)
+        number = (n == 0 ? 2166136261u : number) * 16777619u ^ parts_of_number[n];
+    return number;
+}
+
+// Where texels have stayed the same for some fits, bins become those of a fit anew, and stay.
+void rest(inout progress at) {
+    if (at.rest == RESTS) {
+        at.shows = true;
+    } else if (at.next == BLEND) {
+        at.round = at.quiet == FIT_RESTS_AFTER ? 0 : state.round;
+        blend(at);
+    } else {
+        at.follows = false;
+        at.settles = at.begins = true;
+    }
+}
+
+void begin_settling(inout progress at) {
+    at.settles = false;
+    at.follows = true;
+    at.rest = SETTLES;
+    begin_blend(at, at.kept_likelihood);
+}
+
+void go_on_with_earlier(inout progress at) {
+    at.quiet = state.texels == at.texels ? state.quiet + 1 : 0;
+    at.rest = at.quiet > 0 ? state.rest : MOVES;
+    at.next = state.step;
+    at.part = state.part;
+    at.likelihood = at.followed = state.likelihood;
+    if (thread() < constants.bins) {
+        shown[thread()] = state.shown[thread()];
+        old[thread()] = state.old[thread()];
+        other[thread()] = state.other[thread()];
+    }
+    barrier();
+    if (at.rest == RESTS || at.quiet >= FIT_RESTS_AFTER)
+        rest(at);
+    else
+        follow(at);
+}
+
 progress fit(plane_range range) {
     progress at;
     at.iterations = 0;
+    at.texels = number_of_lobes();
+    at.quiet = 0;
+    at.rest = MOVES;
+    at.saves = at.shows = at.settles = false;
+    at.old = 0.0;
     at.follows = knows_earlier();
     at.begins = !at.follows;
-    at.saves = at.shows = false;
     if (at.follows)
-        follow(at);
+        go_on_with_earlier(at);
     for (;;) {
         prepare_round(at);
         for (uint i = 0; i < at.count; ++i)
@@ -743,6 +918,8 @@ progress fit(plane_range range) {
         take_round(at);
         if (PARTITION != PARTITION_FITTED)
             at.step = MEASURE;
+        if (at.step == MEASURE && at.settles)
+            begin_settling(at);
     }
     return at;
 }
@@ -751,17 +928,29 @@ progress fit(plane_range range) {
 void save_state(progress at) {
     if (!at.follows) {
         at.followed = numbers[0][LIKELIHOOD] / total_weight(constants.bins);
+        at.next = UNBEGUN;
+        at.rest = RESTS;
         if (thread() < constants.bins)
             shown[thread()] = own_gaussian();
     }
-    if (thread() < constants.bins)
+    if (thread() < constants.bins) {
         state.shown[thread()] = shown[thread()];
+        if (at.next == BLEND) {
+            state.old[thread()] = old[thread()];
+            state.other[thread()] = other[thread()];
+        }
+    }
     if (thread() == 0) {
-        if (!at.follows)
-            state.step = UNBEGUN;
+        state.step = at.next;
+        if (at.next == BLEND)
+            state.round = at.round;
+        state.part = at.part;
         state.bins = constants.bins;
         state.points = constants.points;
         state.likelihood = at.followed;
+        state.texels = at.texels;
+        state.quiet = min(at.quiet, 1000u);
+        state.rest = at.rest;
     }
 }
 
@@ -772,16 +961,19 @@ void main() {
     barrier();
     if (thread() < constants.bins) {
         if (PARTITION == PARTITION_FITTED)
-            set_fitted_ranges(thread(), range);
+            set_fitted_ranges(thread(), origin_of(thread(), at), range);
         else
             set_common_ranges(thread(), range, hats.w);
     }
-    if (thread() < MOMENT_MAXIMUM_BINS)
+    if (thread() < MOMENT_MAXIMUM_BINS) {
+        const moment_bin none = moment_bin(vec4(0.0), vec4(0.0), vec4(0.0));
         binning.bins[thread()] = bins[thread()];
+        binning.old_bins[thread()] = at.old > 0.0 ? bins[OLD_BINS + thread()] : none;
+    }
     if (thread() == 0) {
         binning.hats = hats;
         binning.largest = vec4(1.001 * range.heaviest,
-                               BRIGHT_TEXELS ? range.brightest : first_bins.largest.y, 0.0, 0.0);
+                               BRIGHT_TEXELS ? range.brightest : first_bins.largest.y, at.old, 0.0);
     }
     barrier();
     if (PARTITION == PARTITION_FITTED && constants.follows != 0)

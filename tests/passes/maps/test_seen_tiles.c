@@ -24,6 +24,7 @@ typedef struct tile_case {
     bool reduced;
     bool conditional;
     uint32_t condition; ///< 0: no tile is needed
+    uint32_t made_with;
     struct tile_level levels[MAP_TILE_LEVELS];
     uint32_t level_count, tiles;
     uint32_t *marks, *needed;
@@ -82,7 +83,8 @@ static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content,
                                                   .content = content,
                                                   .forgets = forgets,
                                                   .reduced = c->reduced,
-                                                  .conditional = c->conditional};
+                                                  .conditional = c->conditional,
+                                                  .made_with = 1};
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "mark_block",
@@ -92,6 +94,10 @@ static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content,
                    &(lobe_binding){.name = "condition_block",
                                    .resource = lobe_graph_upload(graph, "condition", &c->condition,
                                                                  sizeof c->condition)});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "made_with_block",
+                                   .resource = lobe_graph_upload(graph, "made with", &c->made_with,
+                                                                 sizeof c->made_with)});
     const lobe_resource known = lobe_graph_buffer(graph, &states);
     assert_int_equal(lobe_graph_has_content(graph, known), !forgets);
     const lobe_binding state = {.name = "state_block", .resource = known};
@@ -385,6 +391,37 @@ static void tiles_follow_what_they_are_made_from(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Bins go on to change when texels no longer do.
+static void tiles_follow_bins_that_settle(void **state) {
+    enum { MOVING = 3, FRAMES = 9 };
+    static const char *const settings[] = {"storage=float32", "bins=2", "frames_of_fit=2", NULL};
+    static const uint32_t image = 0;
+    const lobe_scene_changes changes = {.images = &image, .image_count = 1};
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(64, 64, 1, LOBE_SCENE_WRAP_REPEAT);
+    float *texels = scene->images[0].image.texels, first[64 * 64];
+    lobe_frame frames[2][FRAMES];
+    for (int k = 0; k < 64 * 64; k++)
+        first[k] = texels[4 * k];
+    for (int seen = 0; seen < 2; seen++) {
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+        for (int i = 0; i < FRAMES; i++) {
+            for (int k = 0; i < MOVING && k < 64 * 64; k++)
+                texels[4 * k] = 0.5f + (0.4f + (float)i * 0.1f) * (first[k] - 0.5f);
+            if (i < MOVING)
+                assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+            frames[seen][i] = picture(f, scene, "moments", settings, seen);
+        }
+    }
+    for (int i = 0; i < FRAMES; i++) {
+        check_equal(&frames[1][i], &frames[0][i], "fit", i);
+        lobe_frame_free(&frames[0][i]);
+        lobe_frame_free(&frames[1][i]);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 /// Two materials that share an image, one of which is hidden while its texels change.
 static void shared_images_follow_their_texels(void **state) {
     static const char *const settings[] = {"storage=float32", NULL};
@@ -452,6 +489,7 @@ int main(void) {
         cmocka_unit_test(pictures_equal_those_of_whole_maps),
         cmocka_unit_test(tiles_that_are_not_read_may_hold_anything),
         cmocka_unit_test(tiles_follow_what_they_are_made_from),
+        cmocka_unit_test(tiles_follow_bins_that_settle),
         cmocka_unit_test(shared_images_follow_their_texels),
         cmocka_unit_test(samples_of_texels_converge),
     };

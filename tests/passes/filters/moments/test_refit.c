@@ -8,6 +8,7 @@
 
 #include "passes/filters/moments/refit.h"
 #include "passes/upload/scene_upload.h"
+#include "shaders/interface/moment_refit.h"
 #include "tests/passes/filters/moments/changed_map.h"
 #include "tests/passes/support/moment_reference.h"
 #include "tests/passes/support/scene_builder.h"
@@ -80,17 +81,30 @@ static refit refit_bins(fixture *f, const map_case *c, const lobe_material *base
 // Likelihood
 
 /// The shares [0, 1] of bins in a lobe; returns the logarithm of the sum of likelihoods.
-static double share(const refit *r, const plane_sample *s, double members[MOMENT_MAXIMUM_BINS]) {
+static double share_among(const moment_bin *bins, uint32_t count, const plane_sample *s,
+                          double members[MOMENT_MAXIMUM_BINS]) {
     double most = -INFINITY, sum = 0;
-    for (uint32_t k = 0; k < r->first.bins; k++) {
-        members[k] = reference_bin_likelihood(&r->bins.bins[k], s->place, s->variance);
+    for (uint32_t k = 0; k < count; k++) {
+        members[k] = reference_bin_likelihood(&bins[k], s->place, s->variance);
         most = fmax(most, members[k]);
     }
-    for (uint32_t k = 0; k < r->first.bins; k++)
+    for (uint32_t k = 0; k < count; k++)
         sum += members[k] = exp(members[k] - most);
-    for (uint32_t k = 0; k < r->first.bins; k++)
+    for (uint32_t k = 0; k < count; k++)
         members[k] /= sum;
     return most + log(sum);
+}
+
+/// The same where a part is shared as by old bins.
+static double share(const refit *r, const plane_sample *s, double members[MOMENT_MAXIMUM_BINS]) {
+    const double old = (double)r->bins.largest[2];
+    double before[MOMENT_MAXIMUM_BINS];
+    double likelihood = share_among(r->bins.bins, r->first.bins, s, members);
+    if (old > 0)
+        likelihood += old * (share_among(r->bins.old_bins, r->first.bins, s, before) - likelihood);
+    for (uint32_t k = 0; old > 0 && k < r->first.bins; k++)
+        members[k] += old * (before[k] - members[k]);
+    return likelihood;
 }
 
 /// Of the host's samples under the device's bins.
@@ -337,15 +351,87 @@ static void fits_begin_anew_where_texels_are_quite_others(void **state) {
 /// All first bins are the same, and rounds of improvement alone would leave them so: then a point
 /// lacks 0.4.
 static void bins_of_a_flat_map_part_as_it_rises(void **state) {
-    enum { RISING = 50, FRAMES = 120 };
+    enum { FRAMES = 150 };
     struct moment_binning_constants bins;
     following all;
     follow_from(*state, one_slope, 0, &all);
     for (int i = 1; i <= FRAMES; i++)
-        bins = fit_next(&all, round_bumps, 0.3 * fmin((double)i / RISING, 1), true);
+        bins = fit_next(&all, round_bumps, 0.3 * i / FRAMES, true);
     const double lack = lack_of(&all, &bins);
-    if (!(lack < 0.03))
+    if (!(lack < 0.15))
         fail_msg("a point lacks %g", lack);
+    stop_following(&all);
+}
+
+/// The largest distance from a bin's centre to that of the nearest of the others.
+static double distance_of(const struct moment_binning_constants *a,
+                          const struct moment_binning_constants *b, uint32_t count) {
+    double largest = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double least = INFINITY;
+        for (uint32_t k = 0; k < count; k++)
+            least = fmin(least, hypot((double)(a->bins[i].centre[0] - b->bins[k].centre[0]),
+                                      (double)(a->bins[i].centre[1] - b->bins[k].centre[1])));
+        largest = fmax(largest, least);
+    }
+    return largest;
+}
+
+/// What a still map looks like depends on it alone, not on how it moved before.
+static void bins_of_texels_that_rest_become_those_of_a_fit_anew(void **state) {
+    enum { MOVING = 20, RESTING = FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1) };
+    struct moment_binning_constants bins, last;
+    following all;
+    follow_from(*state, cracked_bumps, 0.01, &all);
+    for (int i = 1; i <= MOVING + RESTING; i++)
+        bins = fit_next(&all, cracked_bumps, fmin(i, MOVING) / 120.0, true);
+    last = fit_next(&all, cracked_bumps, MOVING / 120.0, true);
+    assert_memory_equal(&last, &bins, sizeof bins);
+    const struct moment_binning_constants anew =
+        fit_next(&all, cracked_bumps, MOVING / 120.0, false);
+    assert_true(bins.largest[2] == 0);
+    const double distance = distance_of(&bins, &anew, all.first.bins);
+    if (!(distance < 1e-5))
+        fail_msg("bins are %g from those of a fit anew", distance);
+    stop_following(&all);
+}
+
+/// How much of the lobes two fits share among bins in another way.
+static double moved_between(const following *all, const struct moment_binning_constants *a,
+                            const struct moment_binning_constants *b) {
+    const refit first = {.first = all->first, .bins = *a},
+                second = {.first = all->first, .bins = *b};
+    double members[2][MOMENT_MAXIMUM_BINS], sum = 0, total = 0;
+    lobe_survey *survey =
+        passes_lobe_survey_make(all->run.scene, &all->run.scene->materials[0], NULL);
+    assert_non_null(survey);
+    for (uint32_t i = 0; i < survey->count; i++) {
+        const plane_sample *sample = &survey->samples[i];
+        (void)share(&first, sample, members[0]);
+        (void)share(&second, sample, members[1]);
+        for (uint32_t k = 0; k < all->first.bins; k++)
+            sum += 0.5 * sample->weight * fabs(members[0][k] - members[1][k]);
+        total += sample->weight;
+    }
+    lobe_release(survey);
+    return sum / total;
+}
+
+/// Where bins become others, lobes change bins little by little: at once, 0.48 of them would.
+static void lobes_change_bins_slowly(void **state) {
+    enum { FRAMES = 40 };
+    struct moment_binning_constants bins = {0}, before;
+    double most = 0;
+    following all;
+    follow_from(*state, cracked_bumps, 0, &all);
+    for (int i = 1; i <= FRAMES; i++) {
+        before = bins;
+        bins = fit_next(&all, cracked_bumps, i / 400.0, true);
+        if (i > 1)
+            most = fmax(most, moved_between(&all, &before, &bins));
+    }
+    if (!(most < 0.05))
+        fail_msg("%g of the lobes change bins at once", most);
     stop_following(&all);
 }
 
@@ -423,6 +509,8 @@ int main(void) {
         cmocka_unit_test(fits_begin_anew_where_there_is_none_to_follow),
         cmocka_unit_test(fits_begin_anew_where_texels_are_quite_others),
         cmocka_unit_test(bins_of_a_flat_map_part_as_it_rises),
+        cmocka_unit_test(bins_of_texels_that_rest_become_those_of_a_fit_anew),
+        cmocka_unit_test(lobes_change_bins_slowly),
         cmocka_unit_test(bins_that_become_others_serve_the_lobes),
         cmocka_unit_test(hats_are_those_of_the_host),
     };
