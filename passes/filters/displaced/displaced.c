@@ -153,7 +153,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_bind(appearance, "transfer_map", drawn.transfer.map.resource, sampler);
     passes_appearance_bind(appearance, "facet_map", drawn.transfer.facets.resource, sampler);
     passes_appearance_bind(appearance, "closure_block", drawn.transfer.closure, (lobe_sampler){0});
-    passes_relief_bind(has_relief && drawn.near ? &drawn.relief : NULL, context->graph, appearance);
+    passes_relief_bind(has_relief && drawn.near ? &drawn.relief : NULL, context, appearance);
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED,

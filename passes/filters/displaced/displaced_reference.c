@@ -21,11 +21,11 @@ static void build(const filter_context *context, size_t instance, const void *pr
     const bool has_relief = passes_has_relief(&context->scene->materials[index]);
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     if (!has_relief) {
-        passes_relief_bind(NULL, context->graph, appearance);
+        passes_relief_bind(NULL, context, appearance);
         return;
     }
     const relief relief = passes_relief(context, index, true);
-    passes_relief_bind(&relief, context->graph, appearance);
+    passes_relief_bind(&relief, context, appearance);
     appearance->bytes = relief.bytes;
     appearance->base_texels = (uint64_t)relief.constants.width * relief.constants.height;
 }

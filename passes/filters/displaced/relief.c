@@ -4,21 +4,18 @@
 
 #include "passes/upload/material_maps.h"
 
-/// What Vulkan asks of every device: 128 MiB.
-#define LARGEST_BUFFER ((uint64_t)1 << 27)
-
 bool passes_has_relief(const device_material *material) {
     return material->maps[MAP_HEIGHT].use && material->material->height_scale != 0;
 }
 
-/// Places the levels one after the other; returns the number of their values.
-static uint64_t place_levels(struct height_field_constants *constants) {
+/// Places the levels one after the other, from level 1 on; returns the number of their values.
+static uint32_t place_levels(struct height_field_constants *constants) {
     uint32_t width = constants->width, height = constants->height, level = 0;
-    uint64_t offset = 0;
+    uint32_t offset = 0u - width * height;
     for (;; level++) {
         constants->levels[level] =
-            (struct height_level){.offset = (uint32_t)offset, .width = width, .height = height};
-        offset += (uint64_t)width * height;
+            (struct height_level){.offset = offset, .width = width, .height = height};
+        offset += width * height;
         if ((level > 0 && width == 1 && height == 1) || level + 1 == HEIGHT_LEVELS)
             break;
         width = (width + 3) / 4;
@@ -34,27 +31,13 @@ static lobe_pass *add_pass(const relief *relief, lobe_graph *graph, const char *
     return pass;
 }
 
-static void add_heights(const filter_context *context, const device_material *material,
-                        relief *relief) {
-    lobe_pass *pass = add_pass(relief, context->graph, "height_cells");
-    lobe_pass_read(
-        pass, &(lobe_binding){.name = "height_map",
-                              .resource = passes_device_map_import(context->graph, context->scene,
-                                                                   material, MAP_HEIGHT)});
-    relief->heights =
-        lobe_pass_write(pass, &(lobe_binding){.name = "height_block", .resource = relief->heights});
-    lobe_pass_dispatch(
-        pass, &(lobe_dispatch){.shader = "filters/displaced/height_cells.comp",
-                               .threads = {relief->constants.width, relief->constants.height}});
-}
-
 static void add_extent(lobe_graph *graph, relief *relief) {
     const uint32_t rows = relief->constants.height;
     lobe_resource sums =
         lobe_graph_buffer(graph, &(lobe_buffer_description){.name = "rows of heights",
                                                             .size = rows * 4 * sizeof(float)});
     lobe_pass *pass = add_pass(relief, graph, "height_rows");
-    lobe_pass_read(pass, &(lobe_binding){.name = "height_block", .resource = relief->heights});
+    lobe_pass_read(pass, &(lobe_binding){.name = "height_map", .resource = relief->heights});
     sums = lobe_pass_write(pass, &(lobe_binding){.name = "row_block", .resource = sums});
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){.shader = "filters/displaced/height_rows.comp", .threads = {rows}});
@@ -68,8 +51,9 @@ static void add_extent(lobe_graph *graph, relief *relief) {
 static void add_maxima(lobe_graph *graph, relief *relief, uint32_t level) {
     const struct height_level *target = &relief->constants.levels[level];
     lobe_pass *pass = add_pass(relief, graph, "height_maxima");
-    relief->heights = lobe_pass_modify(
-        pass, &(lobe_binding){.name = "height_block", .resource = relief->heights});
+    lobe_pass_read(pass, &(lobe_binding){.name = "height_map", .resource = relief->heights});
+    const lobe_binding maxima = {.name = "maxima_block", .resource = relief->maxima};
+    relief->maxima = level == 1 ? lobe_pass_write(pass, &maxima) : lobe_pass_modify(pass, &maxima);
     lobe_pass_dispatch(pass,
                        &(lobe_dispatch){.shader = "filters/displaced/height_maxima.comp",
                                         .threads = {target->width, target->height},
@@ -77,13 +61,12 @@ static void add_maxima(lobe_graph *graph, relief *relief, uint32_t level) {
                                         .specialisation_count = 1});
 }
 
-static void declare(const filter_context *context, uint32_t index, uint64_t values, bool retained,
-                    relief *relief) {
+static void declare(const filter_context *context, uint32_t index, bool retained, relief *relief) {
     char name[64];
-    snprintf(name, sizeof name, "heights of material %u", index);
-    relief->heights = lobe_graph_buffer(
+    snprintf(name, sizeof name, "largest heights of material %u", index);
+    relief->maxima = lobe_graph_buffer(
         context->graph, &(lobe_buffer_description){
-                            .name = name, .size = values * sizeof(float), .retained = retained});
+                            .name = name, .size = (size_t)relief->bytes, .retained = retained});
     snprintf(name, sizeof name, "extent of heights of material %u", index);
     relief->extent = lobe_graph_buffer(
         context->graph,
@@ -98,41 +81,47 @@ relief passes_relief(const filter_context *context, uint32_t index, bool retaine
     relief relief = {.constants = {.width = map->width,
                                    .height = map->height,
                                    .scale = material->material->height_scale * (float)map->width}};
-    uint64_t values = place_levels(&relief.constants);
-    relief.bytes = values * sizeof(float);
-    if (relief.bytes > LARGEST_BUFFER) {
-        lobe_graph_fail(context->graph, LOBE_ERROR_LIMIT,
-                        "%s: a height map of %u x %u texels is too large for filter '%s'",
-                        material->material->name, map->width, map->height,
-                        lobe_filter_name(context->filter));
-        values = 1;
-    }
-    declare(context, index, values, retained, &relief);
-    add_heights(context, material, &relief);
+    relief.bytes = place_levels(&relief.constants) * sizeof(float);
+    relief.heights = passes_device_map_import(context->graph, context->scene, material, MAP_HEIGHT);
+    declare(context, index, retained, &relief);
     add_extent(context->graph, &relief);
     for (uint32_t level = 1; level <= relief.constants.last_level; level++)
         add_maxima(context->graph, &relief, level);
     return relief;
 }
 
-void passes_relief_read(const relief *relief, lobe_pass *pass) {
-    lobe_pass_read(pass, &(lobe_binding){.name = "height_field_block", .resource = relief->block});
-    lobe_pass_read(pass, &(lobe_binding){.name = "height_block", .resource = relief->heights});
-    lobe_pass_read(pass,
-                   &(lobe_binding){.name = "height_extent_block", .resource = relief->extent});
+/// Under the names that shaders have for them. Samplers repeat.
+static void name_parts(const relief *relief, lobe_binding parts[4]) {
+    parts[0] = (lobe_binding){.name = "height_field_block", .resource = relief->block};
+    parts[1] = (lobe_binding){.name = "height_map", .resource = relief->heights};
+    parts[2] = (lobe_binding){.name = "maxima_block", .resource = relief->maxima};
+    parts[3] = (lobe_binding){.name = "height_extent_block", .resource = relief->extent};
 }
 
-void passes_relief_bind(const relief *relief, lobe_graph *graph, filtered_appearance *appearance) {
+void passes_relief_read(const relief *relief, lobe_pass *pass) {
+    lobe_binding parts[4];
+    name_parts(relief, parts);
+    for (size_t i = 0; i < 4; i++)
+        lobe_pass_read(pass, &parts[i]);
+}
+
+void passes_relief_bind(const relief *bound, const filter_context *context,
+                        filtered_appearance *appearance) {
     static const struct height_field_constants none;
-    static const char *const names[] = {"height_field_block", "height_block",
-                                        "height_extent_block"};
-    lobe_resource bound[3];
-    if (relief) {
-        bound[0] = relief->block;
-        bound[1] = relief->heights;
-        bound[2] = relief->extent;
-    } else
-        bound[0] = bound[1] = bound[2] = lobe_graph_upload(graph, "no relief", &none, sizeof none);
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        passes_appearance_bind(appearance, names[i], bound[i], (lobe_sampler){0});
+    relief nothing;
+    if (!bound) {
+        const lobe_resource block =
+            lobe_graph_upload(context->graph, "no relief", &none, sizeof none);
+        nothing = (relief){
+            .block = block,
+            .heights = lobe_graph_import_texture(context->graph, context->scene->white),
+            .maxima = block,
+            .extent = block,
+        };
+        bound = &nothing;
+    }
+    lobe_binding parts[4];
+    name_parts(bound, parts);
+    for (size_t i = 0; i < 4; i++)
+        passes_appearance_bind(appearance, parts[i].name, parts[i].resource, (lobe_sampler){0});
 }

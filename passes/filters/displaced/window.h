@@ -13,7 +13,7 @@ typedef struct facet_window {
 
 /// What lies around a tile in its window, where that is not all of the relief: quads. Light that
 /// comes from farther away is taken from elsewhere in the window.
-#define WINDOW_MARGIN 128
+#define WINDOW_MARGIN 64
 
 /// How a relief is divided: 1 x 1, or tiles whose windows have at most so many facets.
 typedef struct window_grid {

@@ -3,6 +3,7 @@
 
 // A material's relief (interface/displacement/relief.h), and rays through it.
 
+#include "filters/displaced/relief_texel.glsl"
 #include "interface/displacement/relief.h"
 
 #ifndef LOBE_DESCRIPTOR
@@ -10,10 +11,12 @@
 #endif
 
 layout(LOBE_DESCRIPTOR(33), std140) uniform height_field_block { height_field_constants relief; };
-layout(LOBE_DESCRIPTOR(34), std430) readonly buffer height_block { float heights[]; };
+layout(LOBE_DESCRIPTOR(34), std430) readonly buffer maxima_block { float maxima[]; };
 // Mean and largest height; the mean distance of the facets' normals from the pole in the Lambert
 // plane.
 layout(LOBE_DESCRIPTOR(35), std430) readonly buffer height_extent_block { vec4 height_extent; };
+// Repeated.
+layout(LOBE_DESCRIPTOR(51)) uniform sampler2D height_map;
 
 float mean_height() {
     return height_extent.x;
@@ -43,10 +46,14 @@ ivec2 first_period(ivec2 quad) {
 // The heights of a quad's corners: of its vertex, the next along x, along y, and along both.
 // `first`: the quad, in the first period; `size`: of that.
 vec4 corner_heights(ivec2 first, ivec2 size) {
-    ivec2 next = ivec2(first.x + 1 < size.x ? first.x + 1 : 0,
-                       first.y + 1 < size.y ? first.y + 1 : 0);
-    return vec4(heights[first.y * size.x + first.x], heights[first.y * size.x + next.x],
-                heights[next.y * size.x + first.x], heights[next.y * size.x + next.x]);
+    vec4 texels = textureGather(height_map, vec2(first + 1) / vec2(size));
+    return vec4(height_of_texel(texels.w, relief.scale), height_of_texel(texels.z, relief.scale),
+                height_of_texel(texels.x, relief.scale), height_of_texel(texels.y, relief.scale));
+}
+
+// `texel`: in the first period.
+float vertex_height(ivec2 texel) {
+    return height_of_texel(texelFetch(height_map, texel, 0).r, relief.scale);
 }
 
 vec4 quad_heights(ivec2 quad) {
@@ -130,7 +137,7 @@ ivec2 nodes_of_level(relief_walk walk, int level) {
 
 float node_maximum(relief_walk walk) {
     ivec2 node = (walk.first - walk.tile) >> (2 * walk.level);
-    return heights[walk.offset + node.y * nodes_of_level(walk, walk.level).x + node.x];
+    return maxima[walk.offset + node.y * nodes_of_level(walk, walk.level).x + node.x];
 }
 
 // To the node of the next finer level.

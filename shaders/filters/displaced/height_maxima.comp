@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// A level of maxima of a relief, from the level before.
+// A level of maxima of a relief, from the level before; the first from the map.
 
+#include "filters/displaced/relief_texel.glsl"
 #include "interface/displacement/relief.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,11 +11,17 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint LEVEL = 1;
 
 layout(set = 0, binding = 1, std140) uniform height_field_block { height_field_constants relief; };
-layout(set = 0, binding = 2, std430) buffer height_block { float heights[]; };
+layout(set = 0, binding = 2, std430) buffer maxima_block { float maxima[]; };
+layout(set = 0, binding = 3) uniform sampler2D height_map;
 
 // Quads of four by four texels have a vertex more along each axis, which may be the next period's.
 uint vertex(uint i, uint size) {
     return i < size ? i : i - size;
+}
+
+float value_at(height_level source, uint x, uint y) {
+    return LEVEL == 1u ? height_of_texel(texelFetch(height_map, ivec2(x, y), 0).r, relief.scale)
+                       : maxima[source.offset + y * source.width + x];
 }
 
 void main() {
@@ -27,7 +34,7 @@ void main() {
     float largest = -HEIGHT_MAXIMUM;
     for (uint y = first.y; y < last.y; ++y)
         for (uint x = first.x; x < last.x; ++x)
-            largest = max(largest, heights[source.offset + vertex(y, source.height) * source.width +
-                                           vertex(x, source.width)]);
-    heights[target.offset + node.y * target.width + node.x] = largest;
+            largest = max(largest, value_at(source, vertex(x, source.width),
+                                            vertex(y, source.height)));
+    maxima[target.offset + node.y * target.width + node.x] = largest;
 }

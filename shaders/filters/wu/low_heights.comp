@@ -22,6 +22,7 @@ layout(set = 0, binding = 6, std430) buffer search_block { vec4 search[]; };
 layout(set = 0, binding = 7, std430) buffer product_block { vec4 products[]; };
 // Mean and largest height.
 layout(set = 0, binding = 8, std430) writeonly buffer low_extent_block { vec4 low_extent; };
+layout(set = 0, binding = 9, r32f) uniform writeonly image2D low_map;
 
 const float SMOOTHNESS = 0.01; // w
 const int STEPS = 256;
@@ -144,8 +145,9 @@ void finish(int count) {
         sum += low_heights[i];
     float mean = sum_of_all(sum) / float(count);
     for (int i = int(gl_LocalInvocationIndex); i < count; i += int(THREADS)) {
-        low_heights[i] -= mean;
-        largest = max(largest, low_heights[i]);
+        float height = low_heights[i] - mean;
+        imageStore(low_map, ivec2(i % size.x, i / size.x), vec4(height));
+        largest = max(largest, height);
     }
     barrier();
     partial[gl_LocalInvocationIndex] = largest;

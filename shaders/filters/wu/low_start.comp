@@ -15,8 +15,7 @@ layout(set = 0, binding = 4, std430) writeonly buffer low_block { float low_heig
 layout(set = 0, binding = 5, std430) writeonly buffer slope_block { vec2 slopes[]; };
 
 float height_at(ivec2 texel) {
-    ivec2 first = first_period(texel);
-    return heights[first.y * int(relief.width) + first.x];
+    return vertex_height(first_period(texel));
 }
 
 // Wu et al., 2019, Eq. 1: the slopes of quads telescope, so that only a cell's sides matter.

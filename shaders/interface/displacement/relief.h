@@ -9,11 +9,11 @@
 // Its frame: x along u, y along v (opposite to y of the tangent frame), z outwards; texel (i, j) is
 // the vertex at (i, j). The height of the carrier is the mean of all texels'.
 //
-// height_block holds the texels' heights, then levels of maxima: a value of level l is the largest
+// Level 0 is the map itself, maxima_block holds the others: a value of level l is the largest
 // height of a square of 4^l by 4^l quads, cut off at the map's ends.
 #define HEIGHT_LEVELS 8
 struct height_level {
-    uint offset; // of its first value
+    uint offset; // of its first value; of level 0, such that level 1 follows it: negative
     uint width;  // values
     uint height;
     uint padding;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "tests/long_runs.h"
+
 #include "tests/passes/filters/displaced/relief_plane.h"
 #include "tests/passes/support/slope_plane.h"
 
@@ -147,6 +149,18 @@ static void light_and_viewer_may_change_places(void **state) {
     check(there * a[2], back * b[2], 0.015 * back * b[2], "reciprocity", 60);
 }
 
+/// A map of more texels than a buffer of 128 MiB has numbers.
+static void large_maps_are_read(void **state) {
+    only_in_long_runs();
+    double outgoing[3];
+    slope_plane_direction(40, 1, outgoing);
+    const double small = draw_under_sky(*state, 1, relief_map(16, 4, valley), outgoing, "bounces=1",
+                                        4096),
+                 large = draw_under_sky(*state, 1, relief_map(8192, 4112, valley), outgoing,
+                                        "bounces=1", 4096);
+    check(large, small, 0.02, "a large map", 40);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Small steps
 
@@ -258,6 +272,7 @@ static void extreme_reliefs(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orders_of_a_valley),
+        cmocka_unit_test(large_maps_are_read),
         cmocka_unit_test(valley_seen_from_the_light),
         cmocka_unit_test(pits_reflect_the_sky_evenly),
         cmocka_unit_test(white_reliefs_reflect_all_light),

@@ -44,7 +44,7 @@ static void windows_cover_the_map(void **state) {
     }
 }
 
-enum { WIDTH = 512, HEIGHT = 16, FEW = 2 * 300 * HEIGHT, WINDOWS = 16 };
+enum { WIDTH = 512, HEIGHT = 16, FEW = 2 * (2 * WINDOW_MARGIN + 44) * HEIGHT, WINDOWS = 16 };
 
 /// Nothing is seen from far away.
 static double rough(uint32_t column, uint32_t row) {

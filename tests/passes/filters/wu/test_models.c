@@ -136,8 +136,10 @@ static void check_levels(fixture *f, uint32_t width, uint32_t height) {
     }
     pass_run_execute(&model.run);
     for (uint32_t i = 0; i < constants.level_count; i++)
-        check_heights(data_of(&model, reliefs[i].heights, (size_t)reliefs[i].bytes), expected[i],
-                      constants.levels[i].width * constants.levels[i].height, i);
+        check_heights(data_of(&model, reliefs[i].heights,
+                              (size_t)reliefs[i].constants.width * reliefs[i].constants.height *
+                                  sizeof(float)),
+                      expected[i], constants.levels[i].width * constants.levels[i].height, i);
     end(&model);
 }
 
