@@ -260,18 +260,25 @@ uint32_t passes_transfer_part_count(const device_material *material, const trans
     return count;
 }
 
-/// Light between the facets of a window, and the map's part of it. Returns the last pass.
-static lobe_pass *add_window(const filter_context *context, transfer_build *build, bool is_first,
-                             reduced_map *map) {
-    lobe_pass *last = NULL;
+/// The passes that write a window's part of the map: a channel's layers do not depend on those of
+/// the others.
+typedef struct window_cells {
+    lobe_pass *passes[3];
+    uint32_t count;
+} window_cells;
+
+/// Light between the facets of a window, and the map's part of it.
+static window_cells add_window(const filter_context *context, transfer_build *build, bool is_first,
+                               reduced_map *map) {
+    window_cells cells = {.count = build->kind->coloured ? 3 : 1};
     build->colours = build->seen.links;
     if (build->kind->coloured)
         add_colours(context, build);
-    for (uint32_t channel = 0; channel < (build->kind->coloured ? 3 : 1); channel++) {
+    for (uint32_t channel = 0; channel < cells.count; channel++) {
         add_bounces(build, channel);
-        last = add_cells(build, channel, is_first, map);
+        cells.passes[channel] = add_cells(build, channel, is_first, map);
     }
-    return last;
+    return cells;
 }
 
 /// What belongs to the map as a whole.
@@ -288,7 +295,7 @@ static void add_rest(transfer_build *build, transfer_map *result) {
 static bool add_windows(const filter_context *context, transfer_build *build,
                         const facets_request *request, const window_grid *grid, uint32_t parts,
                         reduced_map *map) {
-    lobe_pass *last = NULL; // of the windows before, whose facets are no longer there
+    window_cells last = {.count = 0}; // of the windows before, whose facets are no longer there
     for (uint32_t i = 0; i < grid->columns * grid->rows; i++) {
         build->window = passes_window(grid, i);
         const facet_range all = all_facets(&build->window);
@@ -297,8 +304,8 @@ static bool add_windows(const filter_context *context, transfer_build *build,
         passes_facets_add(request, &build->window, all, parts, request->in_parts && is_current,
                           &build->seen);
         if (parts < needed) {
-            if (request->in_parts && last)
-                lobe_pass_keep(last);
+            for (uint32_t k = 0; request->in_parts && k < last.count; k++)
+                lobe_pass_keep(last.passes[k]);
             return false;
         }
         parts -= needed;

@@ -58,12 +58,13 @@ typedef struct window_run {
     transfer_kind kind;
 } window_run;
 
-static void begin(window_run *run, fixture *f, uint64_t most_facets) {
+static void begin(window_run *run, fixture *f, bool coloured, uint64_t most_facets) {
     const lobe_material material = relief_material(1);
     run->kind = (transfer_kind){.order = 6,
                                 .azimuths = 4,
                                 .bounces = 8,
                                 .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                .coloured = coloured,
                                 .most_facets = most_facets};
     run->scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, rough), (double[]){0, 0, 1}, 1);
     scene_end(run->scene);
@@ -87,15 +88,15 @@ static size_t count_numbers(const transfer_map *map) {
 }
 
 /// At once, and part by part, each of which runs once.
-static void windows_make_the_same_map(void **state) {
+static void check_windows(fixture *f, bool coloured) {
     window_run whole, windowed;
-    begin(&whole, *state, 0);
+    begin(&whole, f, coloured, 0);
     const transfer_map expected = declare(&whole, UINT32_MAX, false);
     const size_t count = count_numbers(&expected);
     float *numbers = pass_run_read(&whole.run, &expected.map, whole.kind.format);
     end(&whole);
     for (int in_parts = 0; in_parts < 2; in_parts++) {
-        begin(&windowed, *state, FEW);
+        begin(&windowed, f, coloured, FEW);
         const device_material *material = &windowed.run.context.scene->materials[0];
         const uint32_t parts = passes_transfer_part_count(material, &windowed.kind);
         lobe_graph *graph = windowed.run.context.graph;
@@ -113,7 +114,7 @@ static void windows_make_the_same_map(void **state) {
         transfers += count_passes(graph, "facet_transfer", LOBE_PASS_RUN);
         cells += count_passes(graph, "cell_transfer", LOBE_PASS_RUN);
         assert_int_equal(transfers, WINDOWS);
-        assert_int_equal(cells, WINDOWS);
+        assert_int_equal(cells, (coloured ? 3 : 1) * WINDOWS);
         assert_memory_equal(found, numbers, count * sizeof *found);
         free(found);
         end(&windowed);
@@ -121,10 +122,20 @@ static void windows_make_the_same_map(void **state) {
     free(numbers);
 }
 
+static void windows_make_the_same_map(void **state) {
+    check_windows(*state, false);
+}
+
+/// Each colour has layers of its own.
+static void windows_make_the_same_colours(void **state) {
+    check_windows(*state, true);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(windows_cover_the_map),
         cmocka_unit_test(windows_make_the_same_map),
+        cmocka_unit_test(windows_make_the_same_colours),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
 }
