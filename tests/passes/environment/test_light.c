@@ -183,6 +183,7 @@ static void check_methods(fixture *f, const lobe_scene *scene, const char *what,
 }
 
 static void microfacets_agree_with_the_exact_sum(void **state) {
+    only_in_long_runs();
     static const bound bounds[] = {
         {"direct", {0, 0.15, 0.09, 0.11}},  {"toksvig", {0, 0.15, 0.09, 0.11}},
         {"leadr", {0, 0.15, 0.09, 0.11}},   {"lobes", {0, 0.15, 0.09, 0.11}},

@@ -224,6 +224,7 @@ static void white_albedo(double roughness, double expected[RINGS]) {
 /// Flat metal reflects what one facet does; what the papers of `lean`
 /// and `leadr` make of GGX is tested in their own tests.
 static void white_light_is_reflected_once(void **state) {
+    only_in_long_runs();
     static const char *const filters[] = {"direct", "lobes", "moments"};
     static const double roughnesses[] = {0.4, 0.8};
     static const double prefiltered[RINGS] = {0.01, 0.01, 0.01, 0.02};

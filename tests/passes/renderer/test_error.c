@@ -214,6 +214,7 @@ static void pillow_is_within_bounds(void **state) {
 }
 
 static void hall_is_within_bounds(void **state) {
+    only_in_long_runs();
     static const error_bounds bounds = {"hall",
                                         64,
                                         {{"direct", 1.21},

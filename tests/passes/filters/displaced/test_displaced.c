@@ -367,6 +367,7 @@ static void pictures_are_close_to_the_reference(void **state) {
 
 /// Of odd sizes and of one texel; whatever the scale, also negative.
 static void odd_maps_are_finite(void **state) {
+    only_in_long_runs();
     static const uint32_t sizes[][2] = {{1, 1}, {1, 9}, {7, 5}, {3, 64}};
     double outgoing[3], incoming[3];
     slope_plane_direction(50, 0.3, outgoing);

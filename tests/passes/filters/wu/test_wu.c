@@ -107,6 +107,7 @@ static void light_and_viewer_may_change_places(void **state) {
 
 /// Within 0.0065, and with tables of 11 x 11 directions 0.057 less at 70 degrees.
 static void white_reliefs_reflect_nearly_all_light(void **state) {
+    only_in_long_runs();
     static const double angles[] = {0, 40, 70};
     for (int i = 0; i < 3; i++) {
         double outgoing[3];
