@@ -64,13 +64,12 @@ struct moment_binning_constants {
     // material's largest_colour is their unit; z: the part [0, 1) of each lobe that is still shared
     // as by the old bins.
     float4 largest;
-    moment_bin bins[MOMENT_MAXIMUM_BINS];
-    moment_bin old_bins[MOMENT_MAXIMUM_BINS]; // without range
+    // Those that lobes are assigned to; then the old ones, without range.
+    moment_bin bins[2 * MOMENT_MAXIMUM_BINS];
 };
 INTERFACE_SIZE(moment_binning_constants, 608)
 INTERFACE_OFFSET(moment_binning_constants, hats, 0)
 INTERFACE_OFFSET(moment_binning_constants, largest, 16)
 INTERFACE_OFFSET(moment_binning_constants, bins, 32)
-INTERFACE_OFFSET(moment_binning_constants, old_bins, 320)
 
 #endif

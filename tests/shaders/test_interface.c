@@ -297,7 +297,6 @@ static known_member known[] = {
     MEMBER(moment_binning_constants, hats, 0),
     MEMBER(moment_binning_constants, largest, 1),
     MEMBER(moment_binning_constants, bins, 2),
-    MEMBER(moment_binning_constants, old_bins, 3),
     MEMBER(moments_knobs, least_share, 0),
     MEMBER(cell_survey_constants, width, 0),
     MEMBER(cell_survey_constants, height, 1),

@@ -41,16 +41,13 @@ float colour_unit() {
     return binning.largest.y * material.largest_colour;
 }
 
-moment_bin bin_of(int index, bool old) {
-    if (old)
-        return binning.old_bins[index];
-    return binning.bins[index];
-}
+// Those that lobes are shared among.
+moment_bin current_bins[MOMENT_MAXIMUM_BINS];
 
-void share_among(plane_lobe lobe, bool old, out float members[MOMENT_MAXIMUM_BINS]) {
+void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
     float most = -1e30;
     for (int i = 0; i < BINS; ++i) {
-        members[i] = bin_likelihood(bin_of(i, old), lobe.place, lobe.variance);
+        members[i] = bin_likelihood(current_bins[i], lobe.place, lobe.variance);
         most = max(most, members[i]);
     }
     float sum = 0.0;
@@ -60,16 +57,6 @@ void share_among(plane_lobe lobe, bool old, out float members[MOMENT_MAXIMUM_BIN
     }
     for (int i = 0; i < BINS; ++i)
         members[i] /= sum;
-}
-
-void share_fitted(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
-    share_among(lobe, false, members);
-    if (binning.largest.z == 0.0)
-        return;
-    float old[MOMENT_MAXIMUM_BINS];
-    share_among(lobe, true, old);
-    for (int i = 0; i < BINS; ++i)
-        members[i] = mix(members[i], old[i], binning.largest.z);
 }
 
 // Bin 0 gets rough lobes; the others share the rest by direction.
@@ -116,13 +103,13 @@ void add_point(inout bin_sums sums, vec2 point, float weight) {
         add_lobe(sums, make_lobe(i, normal, factor, specular), weight);
 }
 
-void add_all_texels(inout bin_sums sums, ivec2 position) {
+void add_all_texels(inout bin_sums sums, ivec2 position, float part) {
     ivec2 size = ivec2(constants.width, constants.height);
     vec3 column_weights = box_weights(size.x, position.x);
     vec3 row_weights = box_weights(size.y, position.y);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            float weight = row_weights[y] * column_weights[x] / float(POINTS);
+            float weight = part * row_weights[y] * column_weights[x] / float(POINTS);
             for (int i = 0; i < POINTS; ++i)
                 add_point(sums, map_point(2 * position + ivec2(x, y), i, size), weight);
         }
@@ -131,27 +118,42 @@ void add_all_texels(inout bin_sums sums, ivec2 position) {
 
 #ifdef SEEN_TILES
 // One point in each square of a grid, at random: a regular grid would miss what repeats with it.
-void add_samples(inout bin_sums sums, ivec2 position, ivec2 extent) {
+void add_samples(inout bin_sums sums, ivec2 position, ivec2 extent, float part) {
     uint seed = hash(uint(position.x) + hash(uint(position.y) + hash(constants.level)));
     for (uint y = 0u; y < TEXEL_SAMPLES; ++y) {
         for (uint x = 0u; x < TEXEL_SAMPLES; ++x) {
             uint number = seed + 2u * (y * TEXEL_SAMPLES + x);
             vec2 place = vec2(x, y) + vec2(hashed_number(number), hashed_number(number + 1u));
             add_point(sums, (vec2(position) + place / float(TEXEL_SAMPLES)) / vec2(extent),
-                      1.0 / float(TEXEL_SAMPLES * TEXEL_SAMPLES));
+                      part / float(TEXEL_SAMPLES * TEXEL_SAMPLES));
         }
     }
 }
 #endif
 
-void add_points(inout bin_sums sums, ivec2 position, ivec2 extent) {
+void add_points(inout bin_sums sums, ivec2 position, ivec2 extent, float part) {
 #ifdef SEEN_TILES
     if (TEXEL_SAMPLES > 0u) {
-        add_samples(sums, position, extent);
+        add_samples(sums, position, extent, part);
         return;
     }
 #endif
-    add_all_texels(sums, position);
+    add_all_texels(sums, position, part);
+}
+
+// A part of each lobe is shared as by the bins, the rest, if any is left, as by the old ones. (A
+// loop, because lavapipe skips no branch.)
+void add_parts(inout bin_sums sums, ivec2 position, ivec2 extent) {
+    float old_part = PARTITION == PARTITION_FITTED ? binning.largest.z : 0.0;
+    float part = 1.0 - old_part;
+    int first = 0;
+    do {
+        for (int i = 0; i < BINS; ++i)
+            current_bins[i] = binning.bins[first + i];
+        add_points(sums, position, extent, part);
+        part = old_part;
+        first += MOMENT_MAXIMUM_BINS;
+    } while (first == MOMENT_MAXIMUM_BINS && old_part > 0.0);
 }
 
 void main() {
@@ -164,7 +166,7 @@ void main() {
         sums.place[i] = sums.spread[i] = vec4(0.0);
         sums.colour[i] = vec4(0.0);
     }
-    add_points(sums, position, extent);
+    add_parts(sums, position, extent);
     int layers = BIN_COLOUR ? 3 : 2;
     for (int i = 0; i < BINS; ++i) {
         imageStore(moment_map, ivec3(position, layers * i), sums.place[i]);

@@ -968,7 +968,7 @@ void main() {
     if (thread() < MOMENT_MAXIMUM_BINS) {
         const moment_bin none = moment_bin(vec4(0.0), vec4(0.0), vec4(0.0));
         binning.bins[thread()] = bins[thread()];
-        binning.old_bins[thread()] = at.old > 0.0 ? bins[OLD_BINS + thread()] : none;
+        binning.bins[OLD_BINS + thread()] = at.old > 0.0 ? bins[OLD_BINS + thread()] : none;
     }
     if (thread() == 0) {
         binning.hats = hats;
