@@ -101,7 +101,9 @@ static double share(const refit *r, const plane_sample *s, double members[MOMENT
     double before[MOMENT_MAXIMUM_BINS];
     double likelihood = share_among(r->bins.bins, r->first.bins, s, members);
     if (old > 0)
-        likelihood += old * (share_among(r->bins.bins + MOMENT_MAXIMUM_BINS, r->first.bins, s, before) - likelihood);
+        likelihood +=
+            old * (share_among(r->bins.bins + MOMENT_MAXIMUM_BINS, r->first.bins, s, before) -
+                   likelihood);
     for (uint32_t k = 0; old > 0 && k < r->first.bins; k++)
         members[k] += old * (before[k] - members[k]);
     return likelihood;
