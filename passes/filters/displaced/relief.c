@@ -105,23 +105,22 @@ void passes_relief_read(const relief *relief, lobe_pass *pass) {
         lobe_pass_read(pass, &parts[i]);
 }
 
-void passes_relief_bind(const relief *bound, const filter_context *context,
-                        filtered_appearance *appearance) {
+static relief no_relief(const filter_context *context) {
     static const struct height_field_constants none;
-    relief nothing;
-    if (!bound) {
-        const lobe_resource block =
-            lobe_graph_upload(context->graph, "no relief", &none, sizeof none);
-        nothing = (relief){
-            .block = block,
-            .heights = lobe_graph_import_texture(context->graph, context->scene->white),
-            .maxima = block,
-            .extent = block,
-        };
-        bound = &nothing;
-    }
+    const lobe_resource block = lobe_graph_upload(context->graph, "no relief", &none, sizeof none);
+    return (relief){
+        .block = block,
+        .heights = lobe_graph_import_texture(context->graph, context->scene->white),
+        .maxima = block,
+        .extent = block,
+    };
+}
+
+void passes_relief_bind(const relief *drawn, const filter_context *context,
+                        filtered_appearance *appearance) {
+    const relief bound = drawn ? *drawn : no_relief(context);
     lobe_binding parts[4];
-    name_parts(bound, parts);
+    name_parts(&bound, parts);
     for (size_t i = 0; i < 4; i++)
         passes_appearance_bind(appearance, parts[i].name, parts[i].resource, (lobe_sampler){0});
 }

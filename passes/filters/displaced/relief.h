@@ -26,7 +26,7 @@ relief passes_relief(const filter_context *context, uint32_t material, bool reta
 void passes_relief_read(const relief *relief, lobe_pass *pass);
 
 /// The same for shading. NULL: a shader that reads no relief.
-void passes_relief_bind(const relief *relief, const filter_context *context,
+void passes_relief_bind(const relief *drawn, const filter_context *context,
                         filtered_appearance *appearance);
 
 #endif
