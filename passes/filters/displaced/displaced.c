@@ -1,5 +1,6 @@
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
+#include "passes/filters/displaced/facet_colours.h"
 #include "passes/filters/displaced/kept_transfer.h"
 #include "passes/filters/displaced/relief.h"
 #include "passes/filters/displaced/transfer_map.h"

@@ -143,7 +143,7 @@ static uint32_t add_bands(const facets_request *request, const banded_pass *band
 seen_facets passes_facets_begin(const facets_request *request, uint32_t facets) {
     uint32_t bytes[3];
     passes_facets_bytes((facet_range){0, facets}, request->kind, bytes);
-    return (seen_facets){.basis = add_basis(request),
+    return (seen_facets){.basis = request->basis.version > 0 ? request->basis : add_basis(request),
                          .words = declare(request, "transfer of facets", bytes[0]),
                          .links = declare(request, "links of facets", bytes[1])};
 }

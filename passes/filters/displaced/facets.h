@@ -32,12 +32,14 @@ typedef struct facets_request {
     uint32_t material;
     const relief *relief;
     const transfer_kind *kind;
+    lobe_resource basis; ///< that was found elsewhere; all zero: it is found here
     /// What the passes make is kept between frames, about 40 bytes a facet. It also is where
     /// colours vary, of the last window.
     bool in_parts;
 } facets_request;
 
-/// Declares the buffers for up to so many facets, and adds basis_cells and transfer_basis.
+/// Declares the buffers for up to so many facets, and adds basis_cells and transfer_basis where
+/// they are needed.
 seen_facets passes_facets_begin(const facets_request *request, uint32_t facets);
 
 /// Adds facet_transfer and facet_links for a range of a window's facets, in place of what the

@@ -3,16 +3,19 @@
 #include "passes/context/digest.h"
 #include "passes/context/fit_work.h"
 #include "passes/filters/displaced/relief.h"
-#include "passes/maps/kept/record.h"
 #include "passes/maps/kept/texels.h"
 
 /// Increment it whenever the same relief gets other maps: old files are then no longer found.
-enum { TRANSFER_FILE_VERSION = 3 };
+enum { TRANSFER_FILE_VERSION = 4 };
 
 static uint64_t kind_digest(const transfer_kind *kind) {
-    const uint64_t numbers[] = {kind->order,   kind->azimuths,
-                                kind->bounces, (uint64_t)kind->format,
-                                kind->normals, kind->coloured};
+    const uint64_t numbers[] = {kind->order,
+                                kind->azimuths,
+                                kind->bounces,
+                                kind->normals,
+                                (uint64_t)kind->format,
+                                kind->coloured,
+                                passes_transfer_facets(kind)};
     return passes_digest_bytes(TRANSFER_FILE_VERSION, numbers, sizeof numbers);
 }
 
@@ -63,13 +66,38 @@ static bool has_texels(const filter_context *context, const device_material *mat
     return true;
 }
 
-/// What the maps take.
-static kept_layout layout_of_maps(const device_material *material, const transfer_kind *kind) {
-    kept_layout layout = {.what = "relief",
-                          .buffer_bytes = {sizeof(struct transfer_closure_constants)},
-                          .buffer_count = 1};
-    layout.image_count = passes_transfer_images(material, kind, layout.images);
-    return layout;
+static window_grid grid_of(const filter_context *context, uint32_t index,
+                           const transfer_kind *kind) {
+    return passes_transfer_grid(&context->scene->materials[index], kind);
+}
+
+/// Which windows' tiles the frame makes.
+typedef struct tile_choice {
+    uint32_t first, step, count;
+} tile_choice;
+
+/// All of them, or those of its share.
+static tile_choice choose_tiles(const filter_context *context, uint32_t index,
+                                const transfer_kind *kind) {
+    const window_grid grid = grid_of(context, index, kind);
+    const uint32_t count = grid.columns * grid.rows, share = context->work->share,
+                   first = share > 0 ? share - 1 : 0, step = share > 0 ? context->work->shares : 1;
+    return (tile_choice){first, step, first < count ? (count - 1 - first) / step + 1 : 0};
+}
+
+/// Maps that are made in one window are shared by facets, others by windows.
+static bool shares_facets(const filter_context *context, uint32_t index,
+                          const transfer_kind *kind) {
+    return context->work->shares > 0 &&
+           passes_transfer_is_whole(&context->scene->materials[index], kind);
+}
+
+/// Whether tiles of a map that is made in windows are to be saved, and nothing else.
+static bool makes_tiles_alone(const filter_context *context, uint32_t index,
+                              const transfer_kind *kind) {
+    const fit_work *work = context->work;
+    return work && !work->is_dry && work->draws_nothing && work->saves &&
+           !passes_transfer_is_whole(&context->scene->materials[index], kind);
 }
 
 static facet_range range_of_share(const filter_context *context, uint32_t index, uint32_t share) {
@@ -89,65 +117,69 @@ static kept_layout layout_of_share(const filter_context *context, uint32_t index
     return layout;
 }
 
-static bool makes_share(const filter_context *context) {
-    return context->work && !context->work->is_dry && context->work->share > 0;
+static bool makes_share_of_facets(const filter_context *context, uint32_t index,
+                                  const transfer_kind *kind) {
+    return context->work && !context->work->is_dry && context->work->share > 0 &&
+           shares_facets(context, index, kind);
+}
+
+static kept_tile share(const filter_context *context, uint32_t index, const void *user,
+                       uint32_t number) {
+    (void)number;
+    const uint32_t share = context->work->share;
+    return (kept_tile){.layout = layout_of_share(context, index, user, share),
+                       .parts =
+                           passes_facets_part_count(range_of_share(context, index, share), user)};
 }
 
 /// Joining takes one part.
-static uint32_t part_count(const filter_context *context, uint32_t index,
-                           const transfer_kind *kind) {
-    if (makes_share(context))
-        return passes_facets_part_count(range_of_share(context, index, context->work->share), kind);
-    return context->work->shares > 0
-               ? 1
-               : passes_transfer_part_count(&context->scene->materials[index], kind);
+static kept_tile tile(const filter_context *context, uint32_t index, const void *user,
+                      uint32_t number) {
+    const tile_choice choice = choose_tiles(context, index, user);
+    kept_tile tile = passes_transfer_tile(&context->scene->materials[index], user,
+                                          choice.first + number * choice.step);
+    if (shares_facets(context, index, user))
+        tile.parts = 1;
+    return tile;
 }
 
 lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t index,
                                          const transfer_kind *kind, void **slot) {
     const device_material *material = &context->scene->materials[index];
     const fit_work *work = context->work;
-    if (!work || work->is_dry || !passes_has_relief(material) ||
-        (work->shares > 0 && !passes_transfer_is_whole(material, kind)))
+    if (!work || work->is_dry || !passes_has_relief(material))
         return LOBE_OK;
+    const bool shares = makes_share_of_facets(context, index, kind);
+    const uint32_t count = shares ? range_of_share(context, index, work->share).count > 0
+                                  : choose_tiles(context, index, kind).count;
     const kept_subject subject = {
         .kind = passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares),
         .inputs = inputs_digest(material, kind),
-        .parts = part_count(context, index, kind),
         .has_texels = has_texels(context, material, kind),
-        .layout = makes_share(context) ? layout_of_share(context, index, kind, work->share)
-                                       : layout_of_maps(material, kind),
-        .share = layout_of_share,
+        .tile_count = count,
+        .tile = shares ? share : tile,
+        .makes_files_alone = shares || makes_tiles_alone(context, index, kind),
+        .share = shares_facets(context, index, kind) ? layout_of_share : NULL,
         .key = key,
         .user = kind,
     };
-    return subject.layout.buffer_count > 0 ? passes_kept_prepare(context, index, &subject, slot)
-                                           : LOBE_OK;
-}
-
-static bool can_share(const filter_context *context, uint32_t index, const transfer_kind *kind) {
-    const device_material *material = &context->scene->materials[index];
-    if (passes_transfer_is_whole(material, kind))
-        return true;
-    const device_map *map = &material->maps[MAP_HEIGHT];
-    lobe_graph_fail(context->graph, LOBE_ERROR_LIMIT,
-                    "%s: a height map of %u x %u texels is too large to be shared by several "
-                    "processes: it has more than %.1f million",
-                    material->material->name, map->width, map->height,
-                    (double)passes_window_limit() / 2e6);
-    return false;
+    return count > 0 ? passes_kept_prepare(context, index, &subject, slot) : LOBE_OK;
 }
 
 /// What the facets of the frame's share see is all that is made.
 static void build_share(const filter_context *context, uint32_t index, const transfer_kind *kind,
                         const void *prepared) {
-    if (!prepared || passes_kept_stored(context, prepared))
+    if (!prepared || passes_kept_is_settled(prepared, 0))
         return;
     bool in_parts;
     const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
     const relief relief = passes_relief(context, index, in_parts);
     const facet_range range = range_of_share(context, index, context->work->share);
-    const facets_request request = {context->graph, index, &relief, kind, in_parts};
+    const facets_request request = {.graph = context->graph,
+                                    .material = index,
+                                    .relief = &relief,
+                                    .kind = kind,
+                                    .in_parts = in_parts};
     const facet_window window = {.width = relief.constants.width,
                                  .height = relief.constants.height};
     seen_facets seen = passes_facets_begin(&request, range.count);
@@ -156,43 +188,67 @@ static void build_share(const filter_context *context, uint32_t index, const tra
     (void)passes_kept_built(context, prepared, NULL, buffers);
 }
 
-static transfer_map make(const filter_context *context, uint32_t index, const transfer_kind *kind,
-                         const void *prepared, const relief *relief, uint32_t parts,
-                         bool in_parts) {
-    const stored_content *joined = passes_kept_joined(context, prepared);
+static void build_tiles(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                        const void *prepared) {
+    if (!prepared)
+        return;
+    const tile_choice choice = choose_tiles(context, index, kind);
+    transfer_request request = {
+        .context = context, .material = index, .kind = kind, .record = prepared};
+    request.parts = passes_kept_parts(context, prepared, &request.in_parts);
+    const relief relief = passes_relief(context, index, request.in_parts);
+    request.relief = &relief;
+    passes_transfer_tiles(&request, choice.first, choice.step);
+}
+
+/// True: files are all that the frame makes.
+static bool build_files(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                        const void *prepared) {
+    if (makes_share_of_facets(context, index, kind))
+        build_share(context, index, kind, prepared);
+    else if (makes_tiles_alone(context, index, kind))
+        build_tiles(context, index, kind, prepared);
+    else
+        return false;
+    return true;
+}
+
+/// Whether all tiles are stored.
+static bool is_stored(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                      const void *prepared) {
+    const window_grid grid = grid_of(context, index, kind);
+    bool stored = true;
+    for (uint32_t i = 0; stored && i < grid.columns * grid.rows; i++)
+        stored = passes_kept_stored(context, prepared, i) != NULL;
+    return stored;
+}
+
+static transfer_map make(transfer_request *request) {
+    const filter_context *context = request->context;
+    const stored_content *joined = passes_kept_joined(context, request->record);
     if (!joined)
-        return passes_transfer_map(context, index, kind, relief, NULL, parts, in_parts);
+        return passes_transfer_map(request);
     const seen_facets seen = {.words = lobe_graph_import_buffer(context->graph, joined->buffers[0]),
                               .links = lobe_graph_import_buffer(context->graph, joined->buffers[1]),
                               .basis =
                                   lobe_graph_import_buffer(context->graph, joined->buffers[2])};
-    return passes_transfer_map(context, index, kind, relief, &seen, parts, in_parts);
+    request->seen = &seen;
+    return passes_transfer_map(request);
 }
 
 bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
                                 const transfer_kind *kind, const void *prepared, bool near,
                                 transfer_map *transfer, relief *relief) {
-    if (context->work && context->work->shares > 0 && !can_share(context, index, kind))
+    if (build_files(context, index, kind, prepared))
         return false;
-    if (makes_share(context)) {
-        build_share(context, index, kind, prepared);
-        return false;
+    transfer_request request = {
+        .context = context, .material = index, .kind = kind, .record = prepared};
+    request.parts = passes_kept_parts(context, prepared, &request.in_parts);
+    const bool stored = is_stored(context, index, kind, prepared);
+    if (near || !stored) {
+        *relief = passes_relief(context, index, near || request.in_parts);
+        request.relief = stored ? NULL : relief;
     }
-    const stored_content *stored = passes_kept_stored(context, prepared);
-    if (stored) {
-        if (near)
-            *relief = passes_relief(context, index, true);
-        *transfer = passes_transfer_map_declare(context, index, kind);
-        passes_restoring(context->graph, stored, 0, &transfer->map);
-        if (kind->normals)
-            passes_restoring(context->graph, stored, 1, &transfer->facets);
-        transfer->closure = lobe_graph_import_buffer(context->graph, stored->buffers[0]);
-        return true;
-    }
-    bool in_parts;
-    const uint32_t parts = passes_kept_parts(context, prepared, &in_parts);
-    *relief = passes_relief(context, index, near || in_parts);
-    *transfer = make(context, index, kind, prepared, relief, parts, in_parts);
-    const lobe_resource images[] = {transfer->map.resource, transfer->facets.resource};
-    return passes_kept_built(context, prepared, images, &transfer->closure);
+    *transfer = make(&request);
+    return passes_kept_is_whole(context, prepared);
 }

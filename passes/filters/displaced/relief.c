@@ -69,8 +69,8 @@ static void declare(const filter_context *context, uint32_t index, bool retained
                             .name = name, .size = (size_t)relief->bytes, .retained = retained});
     snprintf(name, sizeof name, "extent of heights of material %u", index);
     relief->extent = lobe_graph_buffer(
-        context->graph,
-        &(lobe_buffer_description){.name = name, .size = 4 * sizeof(float), .retained = retained});
+        context->graph, &(lobe_buffer_description){
+                            .name = name, .size = HEIGHT_EXTENT_BYTES, .retained = retained});
     relief->block = lobe_graph_upload(context->graph, "height field", &relief->constants,
                                       sizeof relief->constants);
 }

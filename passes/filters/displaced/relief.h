@@ -14,6 +14,9 @@ typedef struct relief {
     uint64_t bytes; ///< of the maxima
 } relief;
 
+/// Of the buffer `extent`.
+#define HEIGHT_EXTENT_BYTES (4 * (uint32_t)sizeof(float))
+
 /// Whether the material has a relief.
 bool passes_has_relief(const device_material *material);
 

@@ -15,6 +15,19 @@ static uint64_t key(const filter_context *context, uint32_t index, const void *u
     return passes_mixture_key(context, &context->scene->materials[index], user);
 }
 
+/// All levels in one.
+static kept_tile tile(const filter_context *context, uint32_t index, const void *user,
+                      uint32_t number) {
+    (void)number;
+    const device_material *material = &context->scene->materials[index];
+    return (kept_tile){.layout = {.what = "mixture",
+                                  .images = {passes_mixture_extent(material, user)},
+                                  .image_count = 1,
+                                  .buffer_bytes = {sizeof(struct moment_binning_constants)},
+                                  .buffer_count = 1},
+                       .parts = passes_mixture_part_count(material, user)};
+}
+
 lobe_result passes_mixture_prepare(const filter_context *context, uint32_t index,
                                    const mixture_kind *kind, void **slot) {
     const device_material *material = &context->scene->materials[index];
@@ -23,13 +36,9 @@ lobe_result passes_mixture_prepare(const filter_context *context, uint32_t index
     const kept_subject subject = {
         .kind = passes_mixture_kind_digest(context, kind),
         .inputs = passes_mixture_inputs(context, material, kind->own_colours),
-        .parts = passes_mixture_part_count(material, kind),
         .has_texels = passes_mixture_has_texels(context, material, kind->own_colours),
-        .layout = {.what = "mixture",
-                   .images = {passes_mixture_extent(material, kind)},
-                   .image_count = 1,
-                   .buffer_bytes = {sizeof(struct moment_binning_constants)},
-                   .buffer_count = 1},
+        .tile_count = 1,
+        .tile = tile,
         .key = key,
         .user = kind,
     };
@@ -40,10 +49,11 @@ bool passes_mixture_build(const filter_context *context, uint32_t index, const m
                           const void *prepared, moment_map *mixture) {
     if (!varies(&context->scene->materials[index]))
         return false;
-    const stored_content *stored = passes_kept_stored(context, prepared);
+    const stored_content *stored = passes_kept_stored(context, prepared, 0);
     if (stored) {
         *mixture = passes_mixture_map_declare(context, index, kind);
-        passes_restoring(context->graph, stored, 0, &mixture->map);
+        const kept_image extent = passes_mixture_extent(&context->scene->materials[index], kind);
+        passes_restoring(context->graph, stored, 0, &(map_tile){.extent = extent}, &mixture->map);
         mixture->bins = lobe_graph_import_buffer(context->graph, stored->buffers[0]);
         return true;
     }

@@ -25,6 +25,17 @@ static uint64_t key(const filter_context *context, uint32_t index, const void *u
     return passes_kept_map_digest(&material->maps[MAP_HEIGHT], digest);
 }
 
+/// All in one.
+static kept_tile tile(const filter_context *context, uint32_t index, const void *user,
+                      uint32_t number) {
+    (void)number;
+    const device_material *material = &context->scene->materials[index];
+    kept_tile tile = {.layout = {.what = "models", .buffer_count = 3},
+                      .parts = passes_wu_part_count(material, user)};
+    passes_wu_model_bytes(&material->maps[MAP_HEIGHT], user, tile.layout.buffer_bytes);
+    return tile;
+}
+
 lobe_result passes_kept_models_prepare(const filter_context *context, uint32_t index,
                                        const wu_kind *kind, void **slot) {
     const device_material *material = &context->scene->materials[index];
@@ -32,22 +43,21 @@ lobe_result passes_kept_models_prepare(const filter_context *context, uint32_t i
         !passes_wu_fits(material))
         return LOBE_OK;
     const uint64_t scale = scale_digest(material, material->parameter_version);
-    kept_subject subject = {
+    const kept_subject subject = {
         .kind = kind_digest(kind),
         .inputs = passes_digest(scale, material->texel_versions[MAP_HEIGHT]),
-        .parts = passes_wu_part_count(material, kind),
         .has_texels = passes_kept_has_texels(context, &material->maps[MAP_HEIGHT]),
-        .layout = {.what = "models", .buffer_count = 3},
+        .tile_count = 1,
+        .tile = tile,
         .key = key,
         .user = kind,
     };
-    passes_wu_model_bytes(&material->maps[MAP_HEIGHT], kind, subject.layout.buffer_bytes);
     return passes_kept_prepare(context, index, &subject, slot);
 }
 
 bool passes_kept_models_build(const filter_context *context, uint32_t index, const wu_kind *kind,
                               const void *prepared, wu_models *models) {
-    const stored_content *stored = passes_kept_stored(context, prepared);
+    const stored_content *stored = passes_kept_stored(context, prepared, 0);
     if (stored) {
         *models = passes_wu_models_declare(context, index, kind);
         models->cells = lobe_graph_import_buffer(context->graph, stored->buffers[0]);

@@ -22,8 +22,10 @@ typedef struct lobe_fitting_parameters {
     /// 0, 0: the whole work. Otherwise it is shared by several calls, of processes and machines
     /// alike, whose folders are the same or are copied together: one for each `part` from 1 to
     /// `part_count`, in any order, which saves files of its own; and then one with `part` 0 and the
-    /// same `part_count`, which makes the maps of these files and removes them. Maps are the same
-    /// bit for bit, however many parts there are. Only of filters that lobe_filter_shares.
+    /// same `part_count`, which makes the maps of these files and removes them. Maps that consist
+    /// of several files, such as those of large reliefs, are shared file by file: they are whole
+    /// with the last part, and the call after that only checks them. Maps are the same bit for bit,
+    /// however many parts there are. Only of filters that lobe_filter_shares.
     uint32_t part, part_count;
     /// Called after each step with the fraction done, [0, 1]; returning false stops with LOBE_OK:
     /// what is not saved then is lost. NULL: none.
@@ -39,7 +41,8 @@ typedef struct lobe_fitting_summary {
 } lobe_fitting_summary;
 
 /// Makes and saves the maps that the folder lacks, of all materials that instances have, without
-/// drawing. A damaged or foreign file is replaced, with a notice. Errors: as lobe_renderer_render,
+/// drawing. A damaged or foreign file is replaced, with a notice. Files that are there are not made
+/// again: a call goes on where one that was interrupted came to. Errors: as lobe_renderer_render,
 /// and LOBE_ERROR_INVALID_ARGUMENT (a filter that fits no maps, no folder, a part beyond the last),
 /// LOBE_ERROR_UNSUPPORTED (parts of a filter whose work is not shared), LOBE_ERROR_NOT_FOUND (a
 /// part's file is missing, or damaged, or does not belong to the others), LOBE_ERROR_WRITE.

@@ -4,10 +4,21 @@
 
 #include "passes/context/fit_work.h"
 
+void passes_kept_fail(const filter_context *context, uint32_t material, uint64_t key,
+                      const kept_layout *layout, const char *why) {
+    const uint32_t shares = context->work->shares,
+                   share = layout->tiles > 0 ? (layout->tile - 1) % shares + 1 : layout->share;
+    char *path = passes_kept_file_path(context->work->cache, key, layout, context->host);
+    lobe_graph_fail(context->graph, LOBE_ERROR_NOT_FOUND, "%s: part %u of %u of material '%s' %s",
+                    path ? path : context->work->cache, share, shares,
+                    context->scene->scene->materials[material].name, why);
+    lobe_release(path);
+}
+
 typedef struct joining {
     const filter_context *context;
-    const char *material; ///< its name
-    kept_layout whole;    ///< of the buffers joined; no images
+    uint32_t material;
+    kept_layout whole; ///< of the buffers joined; no images
     uint8_t *buffers[KEPT_MAXIMUM_BUFFERS];
     size_t filled[KEPT_MAXIMUM_BUFFERS]; ///< bytes
 } joining;
@@ -29,15 +40,6 @@ static lobe_result allocate(joining *joining) {
             return LOBE_ERROR_OUT_OF_MEMORY;
     }
     return LOBE_OK;
-}
-
-static void fail(const joining *joining, uint64_t key, const kept_layout *share, const char *why) {
-    const filter_context *context = joining->context;
-    char *path = passes_kept_file_path(context->work->cache, key, share, context->host);
-    lobe_graph_fail(context->graph, LOBE_ERROR_NOT_FOUND, "%s: part %u of %u of material '%s' %s",
-                    path ? path : context->work->cache, share->share, share->shares,
-                    joining->material, why);
-    lobe_release(path);
 }
 
 /// False: the last buffer is not that of the shares before.
@@ -62,21 +64,21 @@ static bool load_share(joining *joining, uint64_t key, const kept_layout *share)
     const lobe_host silent = {.allocator = lobe_host_allocator(context->host)};
     kept_content content;
     if (!passes_kept_file_load(context->work->cache, key, share, &silent, &content)) {
-        fail(joining, key, share, "is missing or damaged");
+        passes_kept_fail(context, joining->material, key, share, "is missing or damaged");
         return false;
     }
     const bool belongs = append(joining, share, &content);
     passes_kept_content_free(&content);
     if (!belongs)
-        fail(joining, key, share, "was made by another kind of device than the parts before");
+        passes_kept_fail(context, joining->material, key, share,
+                         "was made by another kind of device than the parts before");
     return belongs;
 }
 
 lobe_result passes_kept_join(const filter_context *context, uint32_t index,
                              const kept_subject *subject, uint64_t key, stored_content *joined) {
     const uint32_t shares = context->work->shares;
-    joining joining = {.context = context,
-                       .material = context->scene->scene->materials[index].name};
+    joining joining = {.context = context, .material = index};
     for (uint32_t share = 1; share <= shares; share++) {
         const kept_layout layout = subject->share(context, index, subject->user, share);
         if (layout.buffer_count > 0)

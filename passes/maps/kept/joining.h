@@ -10,4 +10,9 @@
 lobe_result passes_kept_join(const filter_context *context, uint32_t material,
                              const kept_subject *subject, uint64_t key, stored_content *joined);
 
+/// Fails the frame, with a line that names the file of a share, or of a tile that one should have
+/// made, and says what is wrong with it.
+void passes_kept_fail(const filter_context *context, uint32_t material, uint64_t key,
+                      const kept_layout *layout, const char *why);
+
 #endif

@@ -64,9 +64,12 @@ static uint64_t layout_digest(const kept_layout *layout) {
                                     image->layers, image->levels};
         digest = passes_digest_bytes(digest, numbers, sizeof numbers);
     }
-    // Shares are as large as each other: a file that was renamed must not pass for another one.
+    // Shares, and tiles, are as large as each other: a file that was renamed must not pass for
+    // another one.
     if (layout->shares > 0)
         digest = passes_digest(digest, (uint64_t)layout->share << 32 | layout->shares);
+    if (layout->tiles > 0)
+        digest = passes_digest(digest, (uint64_t)layout->tile << 32 | layout->tiles);
     return digest;
 }
 
@@ -83,14 +86,16 @@ static file_header header_of(uint64_t key, const kept_layout *layout, const uint
 
 char *passes_kept_file_path(const char *folder, uint64_t key, const kept_layout *layout,
                             const lobe_host *host) {
-    char share[32] = "";
-    if (layout->shares > 0)
-        snprintf(share, sizeof share, "-%u-of-%u", layout->share, layout->shares);
-    const size_t size = strlen(folder) + strlen(layout->what) + strlen(share) + 24;
+    char number[40] = "";
+    if (layout->tiles > 0)
+        snprintf(number, sizeof number, "-tile-%u-of-%u", layout->tile, layout->tiles);
+    else if (layout->shares > 0)
+        snprintf(number, sizeof number, "-%u-of-%u", layout->share, layout->shares);
+    const size_t size = strlen(folder) + strlen(layout->what) + strlen(number) + 24;
     char *path = lobe_allocate(lobe_host_allocator(host), size, 1);
     if (path)
         snprintf(path, size, "%s/%s.%s%s", folder, passes_digest_print(key).text, layout->what,
-                 share);
+                 number);
     return path;
 }
 
@@ -136,6 +141,13 @@ bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *
                       path, layout->what);
     lobe_release(path);
     return loaded;
+}
+
+void passes_kept_file_decline(const char *folder, uint64_t key, const kept_layout *layout,
+                              const char *why, const lobe_host *host) {
+    char *path = passes_kept_file_path(folder, key, layout, host);
+    lobe_host_log(host, LOBE_LOG_NOTICE, "%s: %s: it will be replaced", path ? path : folder, why);
+    lobe_release(path);
 }
 
 void passes_kept_content_free(kept_content *content) {

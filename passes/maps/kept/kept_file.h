@@ -30,7 +30,10 @@ typedef struct kept_layout {
     uint32_t image_count;
     uint32_t buffer_bytes[KEPT_MAXIMUM_BUFFERS]; ///< multiples of four, not 0
     uint32_t buffer_count;
-    uint32_t share, shares; ///< the file is one of several, counted from 1 on; 0, 0: the only one
+    /// The file is one of several, counted from 1 on; 0, 0: the only one. A tile is a part of what
+    /// is kept; a share is a part of what that is made from.
+    uint32_t tile, tiles;
+    uint32_t share, shares;
 } kept_layout;
 
 /// A file in host memory.
@@ -47,6 +50,9 @@ uint32_t passes_kept_rows(const kept_image *image);
 /// foreign one. On true the caller frees the content with passes_kept_content_free.
 bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *layout,
                            const lobe_host *host, kept_content *content);
+/// Says (a notice) why a file that was loaded is not used.
+void passes_kept_file_decline(const char *folder, uint64_t key, const kept_layout *layout,
+                              const char *why, const lobe_host *host);
 /// Zeroes the structure.
 void passes_kept_content_free(kept_content *content);
 

@@ -1,69 +1,79 @@
 #include "passes/maps/kept/record.h"
 
+#include <string.h>
+
 #include "passes/context/fit_work.h"
 #include "passes/maps/kept/joining.h"
 
-/// What a frame reads back, to be saved.
-typedef struct kept_reading {
-    bool waits; ///< it has not been taken yet
-    kept_layout layout;
+typedef struct tile_record {
+    kept_tile tile;
+    stored_content stored;
+    bool found;   ///< in the folder
+    bool settled; ///< found, saved, or not to be saved
+    bool saved;
+    bool waits; ///< what a frame reads back of it has not been taken yet
     lobe_resource images[KEPT_MAXIMUM_IMAGES];
     lobe_resource buffers[KEPT_MAXIMUM_BUFFERS];
-} kept_reading;
+} tile_record;
 
 struct kept_record {
     uint64_t kind, inputs; ///< digests of what it is for
     bool changed;          ///< texels were replaced
-    uint32_t part_count;
-    uint32_t done; ///< parts that frames had until now, this one included
-    bool in_parts; ///< what later parts need is kept between frames
-    bool looked_up, settled;
-    bool saved;   ///< the folder has them by now
-    uint64_t key; ///< of the file, once looked up
-    kept_layout layout;
-    stored_content stored;
+    uint32_t done;         ///< parts that frames had until now, this one included
+    bool in_parts;         ///< what later parts need is kept between frames
+    bool looked_up;
+    uint64_t key;          ///< of the files, once looked up
     stored_content joined; ///< of shares
     uint32_t shares;       ///< that were joined
-    kept_reading *reading; ///< owned
+    tile_record *tiles;    ///< owned
+    uint32_t tile_count;
 };
 
 // ---------------------------------------------------------------------------------------------
 // Preparing
 
-static lobe_result create(const filter_context *context, void **slot) {
-    const lobe_allocator *allocator = lobe_host_allocator(context->host);
-    kept_record *record = lobe_allocate(allocator, 1, sizeof *record);
-    if (!record)
-        return LOBE_ERROR_OUT_OF_MEMORY;
-    *slot = record;
-    record->reading = lobe_allocate(allocator, 1, sizeof *record->reading);
-    if (record->reading)
-        return LOBE_OK;
-    lobe_release(record);
-    *slot = NULL;
-    return LOBE_ERROR_OUT_OF_MEMORY;
+static void free_content(kept_record *record) {
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        passes_stored_content_free(&record->tiles[i].stored);
+    passes_stored_content_free(&record->joined);
 }
 
 /// Starts again with other settings, and leaves what was stored where texels were replaced.
-static void update(kept_record *record, const kept_subject *subject) {
-    const bool other_kind = record->kind != subject->kind;
-    record->reading->waits = false;
-    if (!other_kind && record->inputs == subject->inputs)
-        return;
-    passes_stored_content_free(&record->stored);
-    passes_stored_content_free(&record->joined);
-    *record = (kept_record){.kind = subject->kind,
-                            .inputs = subject->inputs,
-                            .changed = !other_kind,
-                            .part_count = subject->parts,
-                            .layout = subject->layout,
-                            .reading = record->reading};
+static lobe_result begin(const filter_context *context, uint32_t index, const kept_subject *subject,
+                         kept_record *record) {
+    free_content(record);
+    lobe_release(record->tiles);
+    *record = (kept_record){
+        .kind = subject->kind, .inputs = subject->inputs, .changed = record->kind == subject->kind};
+    record->tiles = lobe_allocate(lobe_host_allocator(context->host), subject->tile_count,
+                                  sizeof *record->tiles);
+    if (!record->tiles) {
+        *record = (kept_record){0};
+        return LOBE_ERROR_OUT_OF_MEMORY;
+    }
+    record->tile_count = subject->tile_count;
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        record->tiles[i].tile = subject->tile(context, index, subject->user, i);
+    return LOBE_OK;
 }
 
-static bool fits_the_device(const fit_work *work, const kept_layout *layout) {
-    for (uint32_t i = 0; i < layout->image_count; i++)
-        if (passes_kept_rows(&layout->images[i]) > work->most_texels)
-            return false;
+/// What was read back and not taken is forgotten.
+static lobe_result update(const filter_context *context, uint32_t index,
+                          const kept_subject *subject, kept_record *record) {
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        record->tiles[i].waits = false;
+    return record->tiles && record->kind == subject->kind && record->inputs == subject->inputs
+               ? LOBE_OK
+               : begin(context, index, subject, record);
+}
+
+static bool fits_the_device(const fit_work *work, const kept_record *record) {
+    for (uint32_t i = 0; i < record->tile_count; i++) {
+        const kept_layout *layout = &record->tiles[i].tile.layout;
+        for (uint32_t k = 0; k < layout->image_count; k++)
+            if (passes_kept_rows(&layout->images[k]) > work->most_texels)
+                return false;
+    }
     return true;
 }
 
@@ -74,7 +84,7 @@ static bool joins(const fit_work *work) {
 /// They are part of the whole now.
 static void remove_shares(const kept_record *record, uint32_t shares, const char *folder,
                           const lobe_host *host) {
-    kept_layout layout = record->layout;
+    kept_layout layout = record->tiles[0].tile.layout;
     layout.shares = shares;
     for (layout.share = 1; layout.share <= layout.shares; layout.share++)
         passes_kept_file_remove(folder, record->key, &layout, host);
@@ -86,72 +96,160 @@ static lobe_result join(const filter_context *context, uint32_t index, const kep
     return passes_kept_join(context, index, subject, record->key, &record->joined);
 }
 
+/// Tiles that devices made which compute differently do not fit together.
+static bool fit_together(const kept_layout *layout, const kept_content *first,
+                         const kept_content *content) {
+    bool alike = true;
+    for (uint32_t i = 0; first->file && i < layout->buffer_count; i++)
+        alike &= memcmp(first->buffers[i], content->buffers[i], layout->buffer_bytes[i]) == 0;
+    return alike;
+}
+
+/// The tiles that a folder has, one after the other.
+typedef struct tile_search {
+    const filter_context *context;
+    uint32_t material;
+    const kept_subject *subject;
+    kept_record *record;
+    kept_content first; ///< that was found
+} tile_search;
+
+/// True: the caller frees the content.
+static bool find(const tile_search *search, const tile_record *tile, kept_content *content) {
+    const fit_work *work = search->context->work;
+    const kept_layout *layout = &tile->tile.layout;
+    const bool fails = layout->tiles > 0 && joins(work);
+    const lobe_host *host = search->context->host;
+    const lobe_host silent = {.allocator = lobe_host_allocator(host)};
+    const char *why = NULL;
+    if (!passes_kept_file_load(work->cache, search->record->key, layout, fails ? &silent : host,
+                               content))
+        why = "is missing or damaged";
+    else if (!fit_together(layout, &search->first, content))
+        why = "was made by another kind of device than the tiles before";
+    if (why && fails)
+        passes_kept_fail(search->context, search->material, search->record->key, layout, why);
+    else if (why && content->file)
+        passes_kept_file_decline(work->cache, search->record->key, layout, why, host);
+    if (why)
+        passes_kept_content_free(content);
+    return !why;
+}
+
+static lobe_result take(tile_search *search, tile_record *tile, kept_content *content) {
+    lobe_result result = LOBE_OK;
+    if (!search->subject->makes_files_alone)
+        result = passes_stored_content_create(search->context->graph, &tile->tile.layout, content,
+                                              &tile->stored);
+    tile->found = tile->settled = result == LOBE_OK;
+    if (result != LOBE_OK)
+        passes_stored_content_free(&tile->stored);
+    if (result == LOBE_OK && !search->first.file)
+        search->first = *content;
+    else
+        passes_kept_content_free(content);
+    return result;
+}
+
+/// Whether any was found.
+static lobe_result find_all(tile_search *search, bool *found) {
+    lobe_result result = LOBE_OK;
+    kept_record *record = search->record;
+    kept_content content;
+    *found = false;
+    for (uint32_t i = 0; result == LOBE_OK && i < record->tile_count; i++) {
+        if (!find(search, &record->tiles[i], &content))
+            continue;
+        result = take(search, &record->tiles[i], &content);
+        *found = true;
+    }
+    passes_kept_content_free(&search->first);
+    return result;
+}
+
 static lobe_result look_up(const filter_context *context, uint32_t index,
                            const kept_subject *subject, kept_record *record) {
     const fit_work *work = context->work;
-    kept_content content;
     if (record->looked_up || !work->cache || record->changed || !subject->has_texels ||
-        !fits_the_device(work, &subject->layout))
+        !fits_the_device(work, record))
         return LOBE_OK;
     record->looked_up = true;
     record->key = subject->key(context, index, subject->user);
     if (record->done > 0)
         return LOBE_OK;
-    if (!passes_kept_file_load(work->cache, record->key, &subject->layout, context->host, &content))
-        return subject->share && joins(work) ? join(context, index, subject, record) : LOBE_OK;
-    const lobe_result result =
-        passes_stored_content_create(context->graph, &subject->layout, &content, &record->stored);
-    passes_kept_content_free(&content);
-    record->settled = result == LOBE_OK;
-    if (result != LOBE_OK)
-        passes_stored_content_free(&record->stored);
-    else if (subject->share && joins(work)) // an earlier call may not have come to that
-        remove_shares(record, work->shares, work->cache, context->host);
-    return result;
+    tile_search search = {context, index, subject, record, {0}};
+    bool found;
+    const lobe_result result = find_all(&search, &found);
+    if (result != LOBE_OK || !subject->share || !joins(work))
+        return result;
+    if (!found)
+        return join(context, index, subject, record);
+    remove_shares(record, work->shares, work->cache, context->host); // an earlier call may have
+    return LOBE_OK;                                                  // failed before that
+}
+
+uint32_t passes_kept_tile_parts(const kept_record *record, uint32_t tile) {
+    return record->tiles[tile].found ? 0 : record->tiles[tile].tile.parts;
+}
+
+static uint32_t parts_until(const kept_record *record, uint32_t tile_count) {
+    uint32_t parts = 0;
+    for (uint32_t i = 0; i < tile_count; i++)
+        parts += passes_kept_tile_parts(record, i);
+    return parts;
+}
+
+static uint32_t parts_left(const kept_record *record) {
+    return parts_until(record, record->tile_count) - record->done;
 }
 
 /// Takes parts of the frame's work.
 static void advance(const filter_context *context, const kept_subject *subject,
                     kept_record *record) {
     fit_work *work = context->work;
-    const uint32_t left = record->part_count - record->done;
-    const bool at_once = record->changed || record->stored.buffers[0] || !subject->has_texels;
+    const uint32_t left = parts_left(record);
+    const bool at_once = record->changed || !subject->has_texels;
     const uint32_t step = at_once || left < work->parts ? left : work->parts;
     record->in_parts = !at_once && left > 0 && (record->done > 0 || step < left);
     record->done += step;
     if (!at_once && work->parts != UINT32_MAX)
         work->parts -= step;
-    work->parts_left += record->part_count - record->done;
+    work->parts_left += parts_left(record);
 }
 
 static void count(fit_outcome *outcome, const kept_record *record) {
-    const bool is_whole = record->done == record->part_count;
-    outcome->found += record->stored.buffers[0] != NULL;
-    outcome->made += record->saved;
-    outcome->unsaved += is_whole && record->settled && !record->saved && !record->stored.buffers[0];
-    outcome->unkept += is_whole && !record->looked_up;
+    uint32_t found = 0, saved = 0, settled = 0;
+    for (uint32_t i = 0; i < record->tile_count; i++) {
+        found += record->tiles[i].found;
+        saved += record->tiles[i].saved;
+        settled += record->tiles[i].settled;
+    }
+    outcome->found += found == record->tile_count;
+    outcome->made += saved > 0 && found + saved == record->tile_count;
+    outcome->unsaved += parts_left(record) == 0 && settled > found + saved;
+    outcome->unkept += parts_left(record) == 0 && !record->looked_up;
 }
 
 lobe_result passes_kept_prepare(const filter_context *context, uint32_t index,
                                 const kept_subject *subject, void **slot) {
-    lobe_result result = *slot ? LOBE_OK : create(context, slot);
+    if (!*slot)
+        *slot = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof(kept_record));
+    kept_record *record = *slot;
+    lobe_result result =
+        record ? update(context, index, subject, record) : LOBE_ERROR_OUT_OF_MEMORY;
+    if (result == LOBE_OK)
+        result = look_up(context, index, subject, record);
     if (result != LOBE_OK)
         return result;
-    kept_record *record = *slot;
-    update(record, subject);
-    result = look_up(context, index, subject, record);
-    if (result == LOBE_OK)
-        advance(context, subject, record);
-    if (result == LOBE_OK)
-        count(&context->work->outcome, record);
-    return result;
+    advance(context, subject, record);
+    count(&context->work->outcome, record);
+    return LOBE_OK;
 }
 
 void passes_kept_forget(void *slot) {
     kept_record *record = slot;
-    passes_stored_content_free(&record->stored);
-    passes_stored_content_free(&record->joined);
-    lobe_release(record->reading);
+    free_content(record);
+    lobe_release(record->tiles);
     lobe_release(record);
 }
 
@@ -164,61 +262,93 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
     return *in_parts ? record->done : UINT32_MAX;
 }
 
-const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record) {
-    return record && !context->work->is_dry && record->stored.buffers[0] ? &record->stored : NULL;
+const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record,
+                                         uint32_t tile) {
+    return record && !context->work->is_dry && record->tiles[tile].stored.buffers[0]
+               ? &record->tiles[tile].stored
+               : NULL;
+}
+
+bool passes_kept_is_settled(const kept_record *record, uint32_t tile) {
+    return record->tiles[tile].settled;
 }
 
 const stored_content *passes_kept_joined(const filter_context *context, const kept_record *record) {
     return record && !context->work->is_dry && record->joined.buffers[0] ? &record->joined : NULL;
 }
 
-static void read_back(const filter_context *context, const kept_record *record,
-                      const lobe_resource *images, const lobe_resource *buffers) {
-    kept_reading *reading = record->reading;
-    *reading = (kept_reading){.waits = true, .layout = record->layout};
-    for (uint32_t i = 0; i < record->layout.image_count; i++) {
-        reading->images[i] = images[i];
-        lobe_graph_read_back(context->graph, images[i], (lobe_range){0});
+bool passes_kept_wants(const filter_context *context, const kept_record *record, uint32_t tile) {
+    return record && !context->work->is_dry && record->looked_up && context->work->saves &&
+           !record->tiles[tile].settled && record->done >= parts_until(record, tile + 1);
+}
+
+void passes_kept_read_back(const filter_context *context, const kept_record *record, uint32_t index,
+                           const lobe_resource *images, const lobe_resource *buffers) {
+    tile_record *tile = &record->tiles[index];
+    const kept_layout *layout = &tile->tile.layout;
+    for (uint32_t i = 0; i < layout->image_count; i++) {
+        tile->images[i] = images[i];
+        lobe_graph_read_back(context->graph, images[i],
+                             (lobe_range){.level_count = layout->images[i].levels});
     }
-    for (uint32_t i = 0; i < record->layout.buffer_count; i++) {
-        reading->buffers[i] = buffers[i];
+    for (uint32_t i = 0; i < layout->buffer_count; i++) {
+        tile->buffers[i] = buffers[i];
         lobe_graph_read_back(context->graph, buffers[i], (lobe_range){0});
     }
-    context->work->reads_back = true;
+    tile->waits = context->work->reads_back = true;
+}
+
+bool passes_kept_is_whole(const filter_context *context, const kept_record *record) {
+    return !record || context->work->is_dry || parts_left(record) == 0;
 }
 
 bool passes_kept_built(const filter_context *context, const kept_record *record,
                        const lobe_resource *images, const lobe_resource *buffers) {
-    if (!record || context->work->is_dry)
-        return true;
-    const bool is_whole = record->done == record->part_count;
-    if (is_whole && record->looked_up && !record->settled && context->work->saves)
-        read_back(context, record, images, buffers);
-    return is_whole;
+    if (passes_kept_wants(context, record, 0))
+        passes_kept_read_back(context, record, 0, images, buffers);
+    return passes_kept_is_whole(context, record);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Saving
+
+/// False: the frame has not come to that.
+static bool get_content(const tile_record *tile, const lobe_graph *graph, const void **images,
+                        const void **buffers) {
+    bool complete = true;
+    for (uint32_t i = 0; i < tile->tile.layout.image_count; i++) {
+        images[i] = lobe_graph_data(graph, tile->images[i], NULL);
+        complete &= images[i] != NULL;
+    }
+    for (uint32_t i = 0; i < tile->tile.layout.buffer_count; i++) {
+        buffers[i] = lobe_graph_data(graph, tile->buffers[i], NULL);
+        complete &= buffers[i] != NULL;
+    }
+    return complete;
+}
+
+/// One failure is told of: the tiles that follow are not tried.
+static void give_up(kept_record *record) {
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        record->tiles[i].settled = true;
 }
 
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host) {
     kept_record *record = slot;
-    kept_reading *reading = record->reading;
-    if (!reading->waits)
-        return;
-    reading->waits = false;
-    const void *images[KEPT_MAXIMUM_IMAGES] = {0}, *buffers[KEPT_MAXIMUM_BUFFERS] = {0};
-    bool complete = true;
-    for (uint32_t i = 0; i < reading->layout.image_count; i++) {
-        images[i] = lobe_graph_data(graph, reading->images[i], NULL);
-        complete &= images[i] != NULL;
+    for (uint32_t i = 0; i < record->tile_count; i++) {
+        tile_record *tile = &record->tiles[i];
+        const void *images[KEPT_MAXIMUM_IMAGES] = {0}, *buffers[KEPT_MAXIMUM_BUFFERS] = {0};
+        const bool waits = tile->waits;
+        tile->waits = false;
+        if (!waits || tile->settled || !folder || !get_content(tile, graph, images, buffers))
+            continue;
+        tile->saved =
+            passes_kept_file_save(folder, record->key, &tile->tile.layout, images, buffers, host);
+        tile->settled = true;
+        if (!tile->saved)
+            give_up(record);
+        else if (record->shares > 0)
+            remove_shares(record, record->shares, folder, host);
     }
-    for (uint32_t i = 0; i < reading->layout.buffer_count; i++) {
-        buffers[i] = lobe_graph_data(graph, reading->buffers[i], NULL);
-        complete &= buffers[i] != NULL;
-    }
-    if (!folder || !complete)
-        return;
-    record->saved =
-        passes_kept_file_save(folder, record->key, &reading->layout, images, buffers, host);
-    record->settled = true;
-    if (record->saved && record->shares > 0)
-        remove_shares(record, record->shares, folder, host);
 }

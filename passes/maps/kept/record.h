@@ -22,16 +22,29 @@ void passes_kept_forget(void *slot);
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host);
 
-/// Parts that are to be made until this frame's end. UINT32_MAX, and `*in_parts` false: all at
-/// once. `record`: what the slot holds, or NULL.
+/// Parts that are to be made until this frame's end, of the tiles that the folder did not have.
+/// UINT32_MAX, and `*in_parts` false: all at once. `record`: what the slot holds, or NULL.
 uint32_t passes_kept_parts(const filter_context *context, const kept_record *record,
                            bool *in_parts);
-/// What a folder had of the maps; NULL: nothing, so they are to be made.
-const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record);
+/// What a folder had of a tile of the maps; NULL: nothing, so it is to be made.
+const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record,
+                                         uint32_t tile);
+/// Whether nothing is left to do for a tile's file: it is there, or could not be saved.
+bool passes_kept_is_settled(const kept_record *record, uint32_t tile);
+/// The parts that a tile takes: 0 if the folder had it.
+uint32_t passes_kept_tile_parts(const kept_record *record, uint32_t tile);
 /// What a folder had of all shares, joined; NULL: nothing, so that it is to be made.
 const stored_content *passes_kept_joined(const filter_context *context, const kept_record *record);
-/// Says that all passes are declared that make the maps, so that they may be saved. Returns whether
-/// all of them are made in this frame or before. `images`, `buffers`: as in the layout.
+
+/// Whether this frame is to read back a tile, if all that makes it is declared.
+bool passes_kept_wants(const filter_context *context, const kept_record *record, uint32_t tile);
+/// Reads it back, so that it may be saved. `images`, `buffers`: as in the layout.
+void passes_kept_read_back(const filter_context *context, const kept_record *record, uint32_t tile,
+                           const lobe_resource *images, const lobe_resource *buffers);
+/// Whether all tiles are there, or are made in this frame or before.
+bool passes_kept_is_whole(const filter_context *context, const kept_record *record);
+/// Of maps of one tile, all of whose passes are declared: reads it back if that is wanted, and
+/// returns whether it is whole.
 bool passes_kept_built(const filter_context *context, const kept_record *record,
                        const lobe_resource *images, const lobe_resource *buffers);
 

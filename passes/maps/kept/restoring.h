@@ -17,8 +17,16 @@ lobe_result passes_stored_content_create(lobe_graph *graph, const kept_layout *l
 /// Zeroes the structure.
 void passes_stored_content_free(stored_content *stored);
 
-/// Adds the passes that copy all levels of an image into a map that was declared.
+/// A part of a map, with as many levels as files have of it.
+typedef struct map_tile {
+    kept_image extent;
+    uint32_t column, row; ///< of its first texel in level 0 of the map; 0 if it has more levels
+} map_tile;
+
+/// Adds the passes that copy all levels of an image that was stored into a map that was declared.
 void passes_restoring(lobe_graph *graph, const stored_content *stored, uint32_t image,
-                      reduced_map *target);
+                      const map_tile *tile, reduced_map *target);
+/// The other way round: adds the pass that makes an image of a tile of one level, to be read back.
+lobe_resource passes_cutting(lobe_graph *graph, const reduced_map *source, const map_tile *tile);
 
 #endif

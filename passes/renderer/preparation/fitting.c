@@ -85,6 +85,7 @@ lobe_result lobe_renderer_fit(lobe_renderer *renderer, const lobe_fitting_parame
     result = passes_rendering_begin(&r);
     if (result != LOBE_OK)
         return result;
+    r.fits.draws_nothing = true;
     r.fits.share = wanted->part;
     r.fits.shares = wanted->part_count;
     result = make(&r, wanted);

@@ -52,8 +52,8 @@ void add_facet(uint index, float weight) {
 
 void main() {
     uvec2 texel = gl_GlobalInvocationID.xy + uvec2(transfer.first_column, transfer.first_row);
-    ivec2 extent = imageSize(transfer_map).xy;
-    if (texel.x >= uint(extent.x) || texel.y >= uint(extent.y))
+    uvec2 target = texel - uvec2(transfer.target_column, transfer.target_row);
+    if (any(greaterThanEqual(target, uvec2(imageSize(transfer_map).xy))))
         return;
     for (uint i = 0u; i < MAXIMUM_ENTRIES; ++i)
         entries[i] = 0.0;
@@ -67,7 +67,7 @@ void main() {
         }
     }
     for (uint i = 0u; i < uint(imageSize(transfer_map).z); ++i)
-        imageStore(transfer_map, ivec3(texel, i),
+        imageStore(transfer_map, ivec3(target, i),
                    vec4(entries[4u * i], entries[4u * i + 1u], entries[4u * i + 2u],
                         entries[4u * i + 3u]));
 }

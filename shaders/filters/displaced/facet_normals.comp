@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The first level of the map of facets' normals (interface/displacement/relief.h): means over the
-// facets under each texel, of half the size of the relief. A thread a texel.
+// facets under each texel, of half the size of the relief; all within a window. A thread a texel.
 
 #include "filters/displaced/facets.glsl"
 #include "lib/displacement/facet_bins.glsl"
@@ -27,21 +27,21 @@ void add_facet(uint index, float weight) {
 }
 
 void main() {
-    uvec2 texel = gl_GlobalInvocationID.xy;
-    ivec2 extent = imageSize(facet_map).xy;
-    if (texel.x >= uint(extent.x) || texel.y >= uint(extent.y))
+    uvec2 texel = gl_GlobalInvocationID.xy + uvec2(transfer.first_column, transfer.first_row);
+    uvec2 target = texel - uvec2(transfer.target_column, transfer.target_row);
+    if (any(greaterThanEqual(target, uvec2(imageSize(facet_map).xy))))
         return;
     for (uint i = 0u; i < 2u * FACET_BINS; ++i)
         layers[i] = vec4(0.0);
-    ivec2 size = ivec2(transfer.width, transfer.height);
+    ivec2 size = relief_size();
     vec3 columns = box_weights(size.x, int(texel.x)), rows = box_weights(size.y, int(texel.y));
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
-            uint quad = (2u * texel.y + uint(y)) * transfer.width + 2u * texel.x + uint(x);
-            add_facet(2u * quad, 0.5 * columns[x] * rows[y]);
-            add_facet(2u * quad + 1u, 0.5 * columns[x] * rows[y]);
+            uint lower = facet_index(2 * ivec2(texel) + ivec2(x, y), false);
+            add_facet(lower, 0.5 * columns[x] * rows[y]);
+            add_facet(lower + 1u, 0.5 * columns[x] * rows[y]);
         }
     }
     for (uint i = 0u; i < 2u * FACET_BINS; ++i)
-        imageStore(facet_map, ivec3(texel, i), layers[i]);
+        imageStore(facet_map, ivec3(target, i), layers[i]);
 }

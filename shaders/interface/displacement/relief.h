@@ -132,8 +132,10 @@ struct transfer_constants {
     uint origin_y;
     uint first_column; // of the cells that cell_transfer makes of a window: texels of the map
     uint first_row;
+    uint target_column; // of the image that they go to: the same, 0 if it is all of the map
+    uint target_row;
 };
-INTERFACE_SIZE(transfer_constants, 44)
+INTERFACE_SIZE(transfer_constants, 52)
 INTERFACE_OFFSET(transfer_constants, height, 4)
 INTERFACE_OFFSET(transfer_constants, azimuths, 8)
 INTERFACE_OFFSET(transfer_constants, first, 12)
@@ -144,6 +146,8 @@ INTERFACE_OFFSET(transfer_constants, origin_x, 28)
 INTERFACE_OFFSET(transfer_constants, origin_y, 32)
 INTERFACE_OFFSET(transfer_constants, first_column, 36)
 INTERFACE_OFFSET(transfer_constants, first_row, 40)
+INTERFACE_OFFSET(transfer_constants, target_column, 44)
+INTERFACE_OFFSET(transfer_constants, target_row, 48)
 
 // Push constants of facet_colours.
 struct colour_constants {

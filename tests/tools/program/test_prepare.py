@@ -77,6 +77,26 @@ def test_parts_become_what_one_process_makes():
     return None
 
 
+def test_tiles_of_large_reliefs_are_shared():
+    """A relief of two windows."""
+    maps, whole, parts = fresh_folder("large"), fresh_folder("tiles"), fresh_folder("tile-parts")
+    png_draw(maps / "rock_height.png", 1456, 1456, lambda x, y: (37 * x * y % 251,) * 3)
+    png_draw(maps / "rock_albedo.png", 1, 1, lambda x, y: (200, 90, 120))
+    relief = ["--material", maps, "--filter", "displaced", "--set", "azimuths=4", "--set",
+              "order=4", "--set", "bounces=1"]
+    succeeds("prepare", *relief, "--cache", whole)
+    check(len(files(whole)) == 2, f"{files(whole).keys()}")
+    succeeds("prepare", *relief, "--cache", parts, "--part", "2/2")
+    fails("prepare", *relief, "--cache", parts, "--merge", "2", says=["-tile-1-of-2", "part 1 of 2",
+                                                                     "missing"])
+    succeeds("prepare", *relief, "--cache", parts, "--part", "1/2")
+    merged = succeeds("prepare", *relief, "--cache", parts, "--merge", "2")
+    check("found for 1" in merged.stdout, report(merged))
+    check(files(parts) == files(whole), "the tiles differ")
+    drawn = succeeds("render", *relief, "--size", "16x16", "--cache", parts, "-o", maps / "a.exr")
+    check("facet_transfer" not in drawn.stdout and "map_restoring" in drawn.stdout, report(drawn))
+
+
 def test_missing_and_damaged_parts_are_named():
     cache = fresh_folder("missing")
     fails("prepare", *RELIEF, "--cache", cache, "--merge", "2", says=["-1-of-2", "part 1 of 2",
@@ -124,4 +144,5 @@ def test_folders_are_tried_before_work():
 
 
 if __name__ == "__main__":
-    sys.exit(tap.run(globals(), long=[test_materials_that_change_are_told_of]))
+    sys.exit(tap.run(globals(), long=[test_materials_that_change_are_told_of,
+                                       test_tiles_of_large_reliefs_are_shared]))

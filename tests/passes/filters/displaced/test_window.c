@@ -1,13 +1,9 @@
 // Reliefs with more facets than a buffer holds, made window by window: windows cover the map, and
 // what they make is what one window makes, bit for bit.
 
-#include <math.h>
 #include <stdlib.h>
 
-#include "passes/filters/displaced/transfer_map.h"
-#include "passes/upload/device_scene_parts.h"
-#include "tests/passes/filters/displaced/relief_plane.h"
-#include "tests/passes/support/pass_run.h"
+#include "tests/passes/filters/displaced/relief_windows.h"
 
 static uint32_t half(uint32_t extent) {
     return extent > 1 ? extent / 2 : 1;
@@ -44,61 +40,38 @@ static void windows_cover_the_map(void **state) {
     }
 }
 
-enum { WIDTH = 512, HEIGHT = 16, FEW = 2 * (2 * WINDOW_MARGIN + 44) * HEIGHT, WINDOWS = 16 };
+enum { WINDOWS = 16, FEW = WINDOWS_FACETS(22) };
 
-/// Nothing is seen from far away.
-static double rough(uint32_t column, uint32_t row) {
-    const uint32_t mixed = (column * 7919 + row * 104729 + 1) * 2654435761u;
-    return 4 * (double)(mixed >> 8) / (1 << 24) + 2 * sin(2 * M_PI * column / 16);
-}
-
-typedef struct window_run {
-    pass_run run;
-    lobe_scene *scene;
-    transfer_kind kind;
-} window_run;
-
-static void begin(window_run *run, fixture *f, bool coloured, uint64_t most_facets) {
-    const lobe_material material = relief_material(1);
-    run->kind = (transfer_kind){.order = 6,
-                                .azimuths = 4,
-                                .bounces = 8,
-                                .format = LOBE_FORMAT_RGBA32_FLOAT,
-                                .coloured = coloured,
-                                .most_facets = most_facets};
-    run->scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, rough), (double[]){0, 0, 1}, 1);
-    scene_end(run->scene);
-    pass_run_begin(&run->run, f, run->scene, "displaced", (const char *const[]){NULL});
-    assert_int_equal(passes_device_scene_upload_heights(run->run.scene, &f->host), LOBE_OK);
-    lobe_graph_invalidate(run->run.context.graph);
-}
-
-static void end(window_run *run) {
-    pass_run_end(&run->run);
-    lobe_scene_destroy(&run->scene);
-}
-
-static transfer_map declare(const window_run *run, uint32_t parts, bool in_parts) {
+static transfer_map declare(const relief_windows *run, uint32_t parts, bool in_parts) {
     const relief relief = passes_relief(&run->run.context, 0, in_parts);
-    return passes_transfer_map(&run->run.context, 0, &run->kind, &relief, NULL, parts, in_parts);
+    return passes_transfer_map(&(transfer_request){.context = &run->run.context,
+                                                   .kind = &run->kind,
+                                                   .relief = &relief,
+                                                   .parts = parts,
+                                                   .in_parts = in_parts});
 }
 
-static size_t count_numbers(const transfer_map *map) {
-    return passes_reduced_map_bytes(&map->map, LOBE_FORMAT_RGBA32_FLOAT) / sizeof(float);
+/// The work of all windows.
+static uint32_t count_parts(const relief_windows *run) {
+    const device_material *material = &run->run.context.scene->materials[0];
+    const window_grid grid = passes_transfer_grid(material, &run->kind);
+    uint32_t parts = 0;
+    for (uint32_t i = 0; i < grid.columns * grid.rows; i++)
+        parts += passes_transfer_tile(material, &run->kind, i).parts;
+    return parts;
 }
 
 /// At once, and part by part, each of which runs once.
 static void check_windows(fixture *f, bool coloured) {
-    window_run whole, windowed;
-    begin(&whole, f, coloured, 0);
+    relief_windows whole, windowed;
+    relief_windows_begin(&whole, f, coloured, 0);
     const transfer_map expected = declare(&whole, UINT32_MAX, false);
-    const size_t count = count_numbers(&expected);
-    float *numbers = pass_run_read(&whole.run, &expected.map, whole.kind.format);
-    end(&whole);
+    const size_t count = relief_windows_count(&expected);
+    float *numbers = relief_windows_read(&whole, &expected);
+    relief_windows_end(&whole);
     for (int in_parts = 0; in_parts < 2; in_parts++) {
-        begin(&windowed, f, coloured, FEW);
-        const device_material *material = &windowed.run.context.scene->materials[0];
-        const uint32_t parts = passes_transfer_part_count(material, &windowed.kind);
+        relief_windows_begin(&windowed, f, coloured, FEW);
+        const uint32_t parts = count_parts(&windowed);
         lobe_graph *graph = windowed.run.context.graph;
         size_t transfers = 0, cells = 0;
         assert_int_equal(parts, 3 * WINDOWS);
@@ -110,14 +83,14 @@ static void check_windows(fixture *f, bool coloured) {
             lobe_graph_begin(graph);
         }
         const transfer_map map = declare(&windowed, parts, in_parts);
-        float *found = pass_run_read(&windowed.run, &map.map, windowed.kind.format);
+        float *found = relief_windows_read(&windowed, &map);
         transfers += count_passes(graph, "facet_transfer", LOBE_PASS_RUN);
         cells += count_passes(graph, "cell_transfer", LOBE_PASS_RUN);
         assert_int_equal(transfers, WINDOWS);
         assert_int_equal(cells, (coloured ? 3 : 1) * WINDOWS);
         assert_memory_equal(found, numbers, count * sizeof *found);
         free(found);
-        end(&windowed);
+        relief_windows_end(&windowed);
     }
     free(numbers);
 }
