@@ -152,13 +152,16 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
     const bool shares = makes_share_of_facets(context, index, kind);
     const uint32_t count = shares ? range_of_share(context, index, work->share).count > 0
                                   : choose_tiles(context, index, kind).count;
+    const bool alone = shares || makes_tiles_alone(context, index, kind);
+    const uint64_t share_digest =
+        passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares);
     const kept_subject subject = {
-        .kind = passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares),
+        .kind = passes_digest(share_digest, alone), // frames that draw load what was saved
         .inputs = inputs_digest(material, kind),
         .has_texels = has_texels(context, material, kind),
         .tile_count = count,
         .tile = shares ? share : tile,
-        .makes_files_alone = shares || makes_tiles_alone(context, index, kind),
+        .makes_files_alone = alone,
         .share = shares_facets(context, index, kind) ? layout_of_share : NULL,
         .key = key,
         .user = kind,

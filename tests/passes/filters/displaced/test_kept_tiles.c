@@ -212,6 +212,21 @@ static void shares_take_no_map(void **state) {
     assert_true(bytes[1] + WINDOWS_WIDTH / 2 * WINDOWS_HEIGHT / 2 * 20 * 16 < bytes[0]);
 }
 
+/// What was saved without drawing is not made again to be drawn, by the same renderer either.
+static void what_was_saved_is_drawn(void **state) {
+    float *expected = draw_whole(*state, false);
+    process process;
+    start(*state, false, &process);
+    fit_work work = work_of(1, 0, 0);
+    work.draws_nothing = true;
+    fit(&process, work, TILES * TILE_PARTS);
+    float *found = draw(&process, test_folder.path);
+    check_numbers(&process, found, expected);
+    assert_int_equal(process.transfers, TILES);
+    stop(&process);
+    free(expected);
+}
+
 /// The path of a tile's file, counted from 1 on.
 static const char *tile_path(unsigned tile) {
     static char path[256];
@@ -349,6 +364,7 @@ int main(void) {
         IN_TEST_FOLDER(tiles_are_saved_one_by_one),
         IN_TEST_FOLDER(shares_consist_of_tiles),
         IN_TEST_FOLDER(shares_take_no_map),
+        IN_TEST_FOLDER(what_was_saved_is_drawn),
         IN_TEST_FOLDER(bad_tiles_are_replaced),
         IN_TEST_FOLDER(tiles_of_another_device_are_replaced),
         IN_TEST_FOLDER(tiles_that_cannot_be_saved_are_warned_of_once),
