@@ -82,11 +82,11 @@ def content_and_includes(path):
     return hashlib.sha256(content).hexdigest(), INCLUDE.findall(content.decode())
 
 
-def files_of(folder, includes, shader):
+def files_of(folders, shader):
     """All files that a shader may be compiled from, also those that a macro leaves out."""
-    found, unread = set(), [folder / shader.source]
+    found, unread = set(), [folders[0] / shader.source]
     if shader.substitute:
-        unread.append(folder / shader.substitute)
+        unread.append(folders[0] / shader.substitute)
     while unread:
         path = unread.pop()
         if path in found:
@@ -95,61 +95,86 @@ def files_of(folder, includes, shader):
         # Every file of that name counts: so it does not matter which one the compiler takes.
         candidates = [Path(os.path.normpath(place / name))
                       for name in content_and_includes(path)[1]
-                      for place in (path.parent, *includes)]
+                      for place in (path.parent, *folders)]
         unread += [candidate for candidate in candidates if candidate.is_file()]
     return sorted(found)
 
 
-def digest_of(tools, folder, includes, shader):
-    """Changes with whatever decides a shader's words."""
+@functools.lru_cache(maxsize=None)
+def content_digest(path):
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def digest_of(tools, folders, shader):
+    """Changes with whatever decides a shader's words. Each build has a compiler of its own, but
+    they are the same bytes."""
     parts = [repr(shader), repr((BEFORE_INLINING, INLINING))]
-    parts += [os.path.relpath(path, folder) for path in includes]
-    for tool in (tools.compiler, tools.validator, tools.optimiser):
+    parts += [os.path.relpath(path, folders[0]) for path in folders]
+    parts.append(content_digest(tools.compiler))
+    for tool in (tools.validator, tools.optimiser):
         status = os.stat(tool)
         parts.append(f"{tool} {status.st_size} {status.st_mtime_ns}")
-    parts += [f"{os.path.relpath(path, folder)} {content_and_includes(path)[0]}"
-              for path in files_of(folder, includes, shader)]
+    parts += [f"{os.path.relpath(path, folders[0])} {content_and_includes(path)[0]}"
+              for path in files_of(folders, shader)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def run(shader, command):
+def run(name, command):
     """Raises with the command's own output if it fails."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           check=False)
     if done.returncode != 0:
-        raise RuntimeError(f"{shader.name}:\n{done.stdout}")
+        raise RuntimeError(f"{name}:\n{done.stdout}")
 
 
-def compile_shader(tools, folder, includes, shader, scratch):
-    """Returns the SPIR-V of one shader. The compiler sometimes generates invalid SPIR-V for
-    constants computed from specialisation constants, and the optimiser keeps these: the validator
-    sees what a driver will see. It takes ten times as long before functions are inlined."""
-    output = Path(scratch) / (shader.name + ".spv")
-    substitutes = Path(scratch) / (shader.name + ".include")
-    substitutes.mkdir(parents=True)
-    if shader.substitute:
-        (substitutes / "filter.glsl").write_text(f'#include "{shader.substitute}"\n')
-    command = [tools.compiler, "-V", "--quiet", "--target-env", "vulkan1.3"]
-    command += [f"-I{path}" for path in (substitutes, *includes)]
-    command += [f"-D{definition}" for definition in shader.definitions]
-    command += ["-o", str(output), str(folder / shader.source)]
-    run(shader, command)
-    optimise = [tools.optimiser, "--target-env=vulkan1.3", "--skip-validation", str(output),
-                "-o", str(output)]
-    run(shader, [*optimise, *BEFORE_INLINING])
-    early_returns.mark(output)
-    run(shader, [*optimise, *INLINING])
-    early_returns.clear(output)
-    run(shader, [tools.validator, "--target-env", "vulkan1.3", str(output)])
-    return output.read_bytes()
+def spirv_of(scratch, shader):
+    return Path(scratch) / (shader.name + ".spv")
 
 
-def kept_words(tools, folder, includes, shader, scratch):
-    """The file in which the SPIR-V words of one shader are kept."""
-    kept = kept_folder(tools) / digest_of(tools, folder, includes, shader)
-    if not kept.is_file():
-        replace_file(kept, compile_shader(tools, folder, includes, shader, scratch))
-    return kept
+def compile_shaders(tools, folders, scratch, shaders):
+    """Writes the SPIR-V of several shaders with one process."""
+    command = [tools.compiler, *(str(folder) for folder in folders)]
+    if len(folders) == 1:
+        command.append("")
+    for shader in shaders:
+        spirv_of(scratch, shader).parent.mkdir(parents=True, exist_ok=True)
+        command += [shader.name, shader.source, " ".join(shader.definitions), shader.substitute,
+                    str(spirv_of(scratch, shader))]
+    run("compile_shaders", command)
+
+
+def optimise(tools, scratch, kept, shader):
+    """Optimises the SPIR-V of one shader, and keeps it. The compiler sometimes generates invalid
+    SPIR-V for constants computed from specialisation constants, and the optimiser keeps these: the
+    validator sees what a driver will see. It takes ten times as long before functions are
+    inlined."""
+    spirv = spirv_of(scratch, shader)
+    command = [tools.optimiser, "--target-env=vulkan1.3", "--skip-validation", str(spirv),
+               "-o", str(spirv)]
+    run(shader.name, [*command, *BEFORE_INLINING])
+    early_returns.mark(spirv)
+    run(shader.name, [*command, *INLINING])
+    early_returns.clear(spirv)
+    run(shader.name, [tools.validator, "--target-env", "vulkan1.3", str(spirv)])
+    replace_file(kept, spirv.read_bytes())
+
+
+def in_parallel(function, items):
+    """Calls it for each item. Raises one error with what all failures say."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        futures = [pool.submit(function, item) for item in items]
+    failures = [str(future.exception()) for future in futures if future.exception()]
+    if failures:
+        raise RuntimeError("\n".join(failures))
+
+
+def make(tools, folders, missing):
+    """Compiles the shaders whose words are not kept. `missing` maps them to where they will be."""
+    shares = [list(missing)[first::os.cpu_count()] for first in range(os.cpu_count())]
+    with tempfile.TemporaryDirectory() as scratch:
+        in_parallel(functools.partial(compile_shaders, tools, folders, scratch),
+                    filter(None, shares))
+        in_parallel(lambda shader: optimise(tools, scratch, missing[shader], shader), missing)
 
 
 def kept_folder(arguments):
@@ -216,11 +241,11 @@ def replace_file(path, content):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--compiler", required=True, help="glslangValidator")
+    parser.add_argument("--compiler", required=True, help="compile_shaders")
     parser.add_argument("--validator", required=True, help="spirv-val")
     parser.add_argument("--optimiser", required=True, help="spirv-opt")
     parser.add_argument("--folder", required=True, type=Path, help="where the passes are")
-    parser.add_argument("--include", action="append", default=[], type=Path,
+    parser.add_argument("--include", type=Path,
                         help="folder to look for includes in, after --folder itself")
     parser.add_argument("--table", required=True, help="name of the C array")
     parser.add_argument("--output", required=True, type=Path)
@@ -230,21 +255,19 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    folders = [arguments.folder.resolve(), *(path.resolve() for path in arguments.include)]
+    folders = [path.resolve() for path in (arguments.folder, arguments.include) if path]
     sources = [path for path in sorted(folders[0].rglob("*")) if path.suffix in STAGES]
     # The library uses binary search.
     shaders = sorted((shader for path in sources for shader in variants(folders[0], path)),
                      key=lambda shader: shader.name)
     kept_folder(arguments).mkdir(exist_ok=True)
-    with tempfile.TemporaryDirectory() as scratch, \
-            concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = [pool.submit(kept_words, arguments, folders[0], folders, shader, scratch)
-                   for shader in shaders]
-        failures = [str(future.exception()) for future in futures if future.exception()]
-        if failures:
-            print("\n".join(failures), file=sys.stderr)
-            return 1
-        kept = [future.result() for future in futures]
+    kept = [kept_folder(arguments) / digest_of(arguments, folders, shader) for shader in shaders]
+    try:
+        make(arguments, folders, {shader: path for shader, path in zip(shaders, kept)
+                                  if not path.is_file()})
+    except RuntimeError as failures:
+        print(failures, file=sys.stderr)
+        return 1
     replace_file(arguments.output, table_text(arguments.table, shaders, kept).encode())
     remove_others(kept_folder(arguments), kept)
     write_dependencies(arguments.depfile, arguments.output, folders)

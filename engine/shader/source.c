@@ -88,6 +88,9 @@ void engine_source_files_free(engine_source_files *files) {
 /// Copies the name in `#include "name"`; false if the line is not an include.
 static bool parse_include(const char *line, size_t length, char name[PATH_MAX]) {
     char text[PATH_MAX];
+    const size_t blanks = strspn(line, " \t");
+    if (blanks >= length || line[blanks] != '#')
+        return false;
     snprintf(text, sizeof text, "%.*s", (int)length, line);
     return sscanf(text, " # include \"%[^\"\n]\"", name) == 1;
 }
@@ -119,13 +122,8 @@ static bool resolve(const expansion *expansion, const char *includer, const char
 
 static lobe_result expand_file(expansion *expansion, const char *path, int depth);
 
-static lobe_result expand_line(expansion *expansion, const char *path, int depth, const char *line,
-                               size_t length, unsigned number) {
-    char name[PATH_MAX], included[PATH_MAX];
-    if (!parse_include(line, length, name) || !resolve(expansion, path, name, included)) {
-        engine_text_add(&expansion->output, "%.*s\n", (int)length, line);
-        return LOBE_OK;
-    }
+static lobe_result expand_include(expansion *expansion, const char *path, int depth,
+                                  const char *included, unsigned number) {
     if (depth == MAXIMUM_DEPTH) {
         lobe_host_log(expansion->host, expansion->level, "shader '%s': %s:%u: nested too deep",
                       expansion->code->name, path, number);
@@ -137,18 +135,31 @@ static lobe_result expand_line(expansion *expansion, const char *path, int depth
     return result;
 }
 
+/// Adds whole lines, the last of which may lack its end.
+static void add_lines(expansion *expansion, const char *start, const char *end) {
+    if (start < end)
+        engine_text_add(&expansion->output, "%.*s%s", (int)(end - start), start,
+                        end[-1] == '\n' ? "" : "\n");
+}
+
+/// `text` ends in a zero byte. Lines between two includes are added at once.
 static lobe_result expand_text(expansion *expansion, const char *path, int depth, const char *text,
                                size_t size) {
     lobe_result result = LOBE_OK;
-    const char *end = text + size;
+    const char *end = text + size, *unwritten = text, *next;
     unsigned number = 1;
-    for (const char *line = text; result == LOBE_OK && line < end; number++) {
+    for (const char *line = text; result == LOBE_OK && line < end; line = next, number++) {
+        char name[PATH_MAX], included[PATH_MAX];
         const char *line_end = memchr(line, '\n', (size_t)(end - line));
-        if (!line_end)
-            line_end = end;
-        result = expand_line(expansion, path, depth, line, (size_t)(line_end - line), number);
-        line = line_end + 1;
+        next = line_end ? line_end + 1 : end;
+        if (!parse_include(line, (size_t)(next - line), name) ||
+            !resolve(expansion, path, name, included))
+            continue;
+        add_lines(expansion, unwritten, line);
+        result = expand_include(expansion, path, depth, included, number);
+        unwritten = next;
     }
+    add_lines(expansion, unwritten, end);
     return result;
 }
 

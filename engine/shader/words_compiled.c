@@ -92,7 +92,10 @@ static lobe_result link_program(compilation *compilation) {
     if (!glslang_program_link(compilation->program,
                               GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT))
         return fail(compilation, glslang_program_get_info_log(compilation->program));
-    glslang_program_SPIRV_generate(compilation->program, stage_of(compilation->code->source));
+    // By default it also runs a validator, whose messages it keeps to itself.
+    glslang_spv_options_t options = {.disable_optimizer = true};
+    glslang_program_SPIRV_generate_with_options(compilation->program,
+                                                stage_of(compilation->code->source), &options);
     return LOBE_OK;
 }
 
