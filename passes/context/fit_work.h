@@ -21,6 +21,7 @@ typedef struct fit_work {
     bool is_dry;          ///< nothing is executed: only pipelines are made
     bool reads_back;      ///< set where the frame reads back a map, to be saved
     uint32_t most_texels; ///< along a side of an image, on this device
+    uint64_t free_bytes;  ///< of device memory, where maps may be loaded from the cache
     /// Which of how many shares of a map's work is done, counted from 1 on; 0 of several: those of
     /// all are in the cache, and are joined; 0 of 0: the work is not shared.
     uint32_t share, shares;

@@ -63,6 +63,15 @@ static bool may_save(const lobe_render_parameters *parameters) {
     return !parameters->host.submission || parameters->host.frames_in_flight <= 1;
 }
 
+/// But for a sixteenth, which is left for pictures and light.
+static uint64_t free_bytes(const lobe_device *device) {
+    lobe_device_memory memory;
+    lobe_device_memory_query(device, &memory);
+    const uint64_t bytes =
+        memory.budget_bytes > memory.used_bytes ? memory.budget_bytes - memory.used_bytes : 0;
+    return bytes - bytes / 16;
+}
+
 static fit_work fits_of(const rendering *r) {
     const lobe_render_fits *fits = &r->parameters->fits;
     return (fit_work){
@@ -70,6 +79,7 @@ static fit_work fits_of(const rendering *r) {
         .cache = fits->cache,
         .saves = fits->cache && may_save(r->parameters),
         .most_texels = lobe_device_describe(r->renderer->device)->maximum_image_extent,
+        .free_bytes = fits->cache ? free_bytes(r->renderer->device) : 0,
     };
 }
 

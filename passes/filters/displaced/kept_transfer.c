@@ -161,6 +161,8 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
         .has_texels = has_texels(context, material, kind),
         .tile_count = count,
         .tile = shares ? share : tile,
+        .map_bytes = passes_transfer_bytes(material, kind),
+        .making_bytes = passes_transfer_making_bytes(material, kind),
         .makes_files_alone = alone,
         .share = shares_facets(context, index, kind) ? layout_of_share : NULL,
         .key = key,

@@ -52,6 +52,30 @@ kept_tile passes_transfer_tile(const device_material *material, const transfer_k
     return tile;
 }
 
+/// The largest window of a grid: the first.
+static uint32_t most_facets(const window_grid *grid) {
+    const facet_window window = passes_window(grid, 0);
+    return passes_window_facets(&window);
+}
+
+uint64_t passes_transfer_bytes(const device_material *material, const transfer_kind *kind) {
+    const device_map *heights = &material->maps[MAP_HEIGHT];
+    reduced_map map = {.width = passes_half_extent(heights->width),
+                       .height = passes_half_extent(heights->height),
+                       .layers = passes_transfer_layers(kind) +
+                                 (kind->normals ? passes_facet_layers() : 0)};
+    map.levels = passes_level_count(map.width, map.height);
+    return passes_reduced_map_bytes(&map, kind->format);
+}
+
+/// What facets see, three steps of light between them, and colours.
+uint64_t passes_transfer_making_bytes(const device_material *material, const transfer_kind *kind) {
+    const window_grid grid = passes_transfer_grid(material, kind);
+    const uint64_t words = TRANSFER_WORDS(kind->order) + TRANSFER_LINKS + 3 * TRANSFER_INDIRECT +
+                           (kind->coloured ? TRANSFER_COLOUR_WORDS : 0);
+    return most_facets(&grid) * words * sizeof(uint32_t);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Tiles
 
@@ -81,12 +105,6 @@ static void take_stored(transfer_build *build) {
         return;
     build->facets.basis = lobe_graph_import_buffer(build->graph, stored->buffers[0]);
     build->relief.extent = lobe_graph_import_buffer(build->graph, stored->buffers[1]);
-}
-
-/// The largest window of a grid: the first.
-static uint32_t most_facets(const window_grid *grid) {
-    const facet_window window = passes_window(grid, 0);
-    return passes_window_facets(&window);
 }
 
 static void begin(const transfer_request *request, transfer_build *build) {

@@ -26,6 +26,10 @@ bool passes_transfer_is_whole(const device_material *material, const transfer_ki
 kept_tile passes_transfer_tile(const device_material *material, const transfer_kind *kind,
                                uint32_t window);
 
+/// Device memory of the map, and of a window's facets.
+uint64_t passes_transfer_bytes(const device_material *material, const transfer_kind *kind);
+uint64_t passes_transfer_making_bytes(const device_material *material, const transfer_kind *kind);
+
 /// A map that is asked for.
 typedef struct transfer_request {
     const filter_context *context;

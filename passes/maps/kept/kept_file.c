@@ -45,8 +45,8 @@ static size_t buffer_bytes(const kept_layout *layout, uint32_t buffer) {
     return ((size_t)layout->buffer_bytes[buffer] + 15) / 16 * 16;
 }
 
-static size_t content_bytes(const kept_layout *layout) {
-    size_t bytes = 0;
+uint64_t passes_kept_bytes(const kept_layout *layout) {
+    uint64_t bytes = 0;
     for (uint32_t i = 0; i < layout->buffer_count; i++)
         bytes += buffer_bytes(layout, i);
     for (uint32_t i = 0; i < layout->image_count; i++)
@@ -74,7 +74,7 @@ static uint64_t layout_digest(const kept_layout *layout) {
 }
 
 static file_header header_of(uint64_t key, const kept_layout *layout, const uint8_t *content) {
-    const size_t bytes = content_bytes(layout);
+    const size_t bytes = passes_kept_bytes(layout);
     return (file_header){.name = "lobe map",
                          .byte_order = 0x01020304,
                          .version = 1,
@@ -100,7 +100,7 @@ char *passes_kept_file_path(const char *folder, uint64_t key, const kept_layout 
 }
 
 static bool is_whole(const uint8_t *file, size_t size, uint64_t key, const kept_layout *layout) {
-    if (size != sizeof(file_header) + content_bytes(layout))
+    if (size != sizeof(file_header) + passes_kept_bytes(layout))
         return false;
     const file_header expected = header_of(key, layout, file + sizeof expected);
     return memcmp(file, &expected, sizeof expected) == 0;
@@ -128,6 +128,14 @@ static bool load_file(const char *path, uint64_t key, const kept_layout *layout,
         next += row_bytes(image);
     }
     return true;
+}
+
+bool passes_kept_file_is_there(const char *folder, uint64_t key, const kept_layout *layout,
+                               const lobe_host *host) {
+    char *path = passes_kept_file_path(folder, key, layout, host);
+    const bool there = path && access(path, F_OK) == 0;
+    lobe_release(path);
+    return there;
 }
 
 bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *layout,
@@ -158,7 +166,7 @@ void passes_kept_content_free(kept_content *content) {
 static lobe_result save_file(const char *path, uint64_t key, const kept_layout *layout,
                              const void *const *images, const void *const *buffers,
                              const lobe_host *host) {
-    const size_t size = sizeof(file_header) + content_bytes(layout);
+    const size_t size = sizeof(file_header) + passes_kept_bytes(layout);
     uint8_t *file = lobe_allocate(lobe_host_allocator(host), size, 1);
     if (!file)
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory", path);

@@ -46,6 +46,13 @@ typedef struct kept_content {
 /// Rows that an image takes.
 uint32_t passes_kept_rows(const kept_image *image);
 
+/// Bytes of all images and buffers in a file.
+uint64_t passes_kept_bytes(const kept_layout *layout);
+
+/// Whether the folder has a file of this name.
+bool passes_kept_file_is_there(const char *folder, uint64_t key, const kept_layout *layout,
+                               const lobe_host *host);
+
 /// Loads the file of a key. False if the folder has none, or (with a notice) only a damaged or
 /// foreign one. On true the caller frees the content with passes_kept_content_free.
 bool passes_kept_file_load(const char *folder, uint64_t key, const kept_layout *layout,

@@ -10,8 +10,8 @@ typedef struct tile_record {
     stored_content stored;
     bool found;   ///< in the folder
     bool settled; ///< found, saved, or not to be saved
-    bool saved;
-    bool waits; ///< what a frame reads back of it has not been taken yet
+    bool saved;   ///< or there, but not loaded
+    bool waits;   ///< what a frame reads back of it has not been taken yet
     lobe_resource images[KEPT_MAXIMUM_IMAGES];
     lobe_resource buffers[KEPT_MAXIMUM_BUFFERS];
 } tile_record;
@@ -112,6 +112,8 @@ typedef struct tile_search {
     const kept_subject *subject;
     kept_record *record;
     kept_content first; ///< that was found
+    uint64_t room;      ///< of device memory, for tiles
+    uint32_t left;      ///< tiles that were found, but not loaded
 } tile_search;
 
 /// True: the caller frees the content.
@@ -136,6 +138,37 @@ static bool find(const tile_search *search, const tile_record *tile, kept_conten
     return !why;
 }
 
+/// How much device memory tiles may take: what is left of it beside the maps, and beside what makes
+/// the tiles that are not there or have no room.
+static uint64_t find_room(const tile_search *search) {
+    const fit_work *work = search->context->work;
+    const kept_record *record = search->record;
+    const kept_subject *subject = search->subject;
+    uint64_t bytes = 0;
+    bool all = true;
+    for (uint32_t i = 0; i < record->tile_count; i++) {
+        const kept_layout *layout = &record->tiles[i].tile.layout;
+        bytes += passes_kept_bytes(layout);
+        all = all &&
+              passes_kept_file_is_there(work->cache, record->key, layout, search->context->host);
+    }
+    if (all && subject->map_bytes + bytes <= work->free_bytes)
+        return bytes;
+    const uint64_t needed = subject->map_bytes + subject->making_bytes;
+    return work->free_bytes > needed ? work->free_bytes - needed : 0;
+}
+
+/// Takes the memory for a tile, if there is room.
+static bool take_room(tile_search *search, const kept_layout *layout) {
+    const uint64_t bytes = passes_kept_bytes(layout);
+    if (search->subject->makes_files_alone)
+        return true;
+    if (bytes > search->room)
+        return false;
+    search->room -= bytes;
+    return true;
+}
+
 static lobe_result take(tile_search *search, tile_record *tile, kept_content *content) {
     lobe_result result = LOBE_OK;
     if (!search->subject->makes_files_alone)
@@ -151,19 +184,38 @@ static lobe_result take(tile_search *search, tile_record *tile, kept_content *co
     return result;
 }
 
+static void tell_of_memory(const tile_search *search) {
+    const filter_context *context = search->context;
+    lobe_host_log(
+        context->host, LOBE_LOG_NOTICE,
+        "material '%s': the device has no memory to load %u of %u cached files: what they "
+        "have is made again",
+        context->scene->scene->materials[search->material].name, search->left,
+        search->record->tile_count);
+}
+
 /// Whether any was found.
 static lobe_result find_all(tile_search *search, bool *found) {
     lobe_result result = LOBE_OK;
     kept_record *record = search->record;
     kept_content content;
     *found = false;
+    search->room = find_room(search);
     for (uint32_t i = 0; result == LOBE_OK && i < record->tile_count; i++) {
         if (!find(search, &record->tiles[i], &content))
             continue;
-        result = take(search, &record->tiles[i], &content);
         *found = true;
+        if (take_room(search, &record->tiles[i].tile.layout)) {
+            result = take(search, &record->tiles[i], &content);
+        } else {
+            passes_kept_content_free(&content);
+            record->tiles[i].settled = record->tiles[i].saved = true;
+            search->left++;
+        }
     }
     passes_kept_content_free(&search->first);
+    if (search->left > 0)
+        tell_of_memory(search);
     return result;
 }
 
@@ -177,7 +229,8 @@ static lobe_result look_up(const filter_context *context, uint32_t index,
     record->key = subject->key(context, index, subject->user);
     if (record->done > 0)
         return LOBE_OK;
-    tile_search search = {context, index, subject, record, {0}};
+    tile_search search = {
+        .context = context, .material = index, .subject = subject, .record = record};
     bool found;
     const lobe_result result = find_all(&search, &found);
     if (result != LOBE_OK || !subject->share || !joins(work))

@@ -19,6 +19,8 @@ typedef struct kept_subject {
     /// What each tile's file has, from 0 on. Buffers are alike in all of them.
     kept_tile (*tile)(const filter_context *context, uint32_t material, const void *user,
                       uint32_t tile);
+    uint64_t map_bytes;     ///< of device memory
+    uint64_t making_bytes;  ///< of what makes tiles that are not loaded; the same
     bool makes_files_alone; ///< nothing reads the maps: what the folder has of them is not loaded
     /// What the file of a share has, where what a map is made from can be shared: slices of
     /// buffers, of which those of all shares are joined one behind the other, but the last buffer,

@@ -23,12 +23,13 @@ typedef struct process {
     log_recorder recorder;
     void *slot;
     fit_work work; ///< of the last frame
+    uint64_t free_bytes;
     transfer_map map;
     size_t transfers; ///< windows whose facets were looked at
 } process;
 
 static void start(fixture *f, bool coloured, process *process) {
-    *process = (struct process){0};
+    *process = (struct process){.free_bytes = UINT64_MAX};
     relief_windows_begin(&process->windows, f, coloured, FACETS);
     log_recorder_start(&process->recorder);
     process->windows.run.context.host = &process->recorder.host;
@@ -49,6 +50,7 @@ static bool declare(process *process, fit_work work) {
     relief relief;
     process->work = work;
     process->work.most_texels = 16384;
+    process->work.free_bytes = process->free_bytes;
     assert_int_equal(passes_kept_transfer_prepare(context, 0, kind, &process->slot), LOBE_OK);
     return passes_kept_transfer_build(context, 0, kind, process->slot, false, &process->map,
                                       &relief);
@@ -317,6 +319,44 @@ static void tiles_of_another_device_are_replaced(void **state) {
     free(expected);
 }
 
+static void check_loaded(fixture *f, uint64_t free_bytes, size_t loaded, const float *expected) {
+    process process;
+    start(f, false, &process);
+    process.free_bytes = free_bytes;
+    float *found = draw(&process, test_folder.path);
+    check_numbers(&process, found, expected);
+    assert_int_equal(process.transfers, TILES - loaded);
+    assert_int_equal(process.recorder.notices, loaded < TILES);
+    assert_int_equal(process.recorder.warnings, 0);
+    assert_int_equal(temporary_folder_count(&test_folder), TILES);
+    check_numbers(&process, draw(&process, test_folder.path), expected);
+    assert_int_equal(count_run(&process, NULL), 0);
+    assert_int_equal(process.work.outcome.unsaved, 0);
+    stop(&process);
+}
+
+/// As many are loaded as the device has memory for beside what it needs; the others are made again.
+static void tiles_are_loaded_beside_the_map(void **state) {
+    float *expected = draw_whole(*state, false);
+    process process;
+    start(*state, false, &process);
+    fit(&process, work_of(1, 1, 1), TILES * TILE_PARTS);
+    const device_material *material = &process.windows.run.context.scene->materials[0];
+    const transfer_kind *kind = &process.windows.kind;
+    const kept_tile tile = passes_transfer_tile(material, kind, 0);
+    const uint64_t tile_bytes = passes_kept_bytes(&tile.layout),
+                   map = passes_transfer_bytes(material, kind),
+                   making = passes_transfer_making_bytes(material, kind);
+    stop(&process);
+    check_loaded(*state, map + TILES * tile_bytes, TILES, expected);
+    assert_true(making + tile_bytes < TILES * tile_bytes);
+    check_loaded(*state, map + making + tile_bytes, 1, expected);
+    check_loaded(*state, map, 0, expected);
+    assert_int_equal(remove(tile_path(4)), 0);
+    check_loaded(*state, map + making + 2 * tile_bytes, 2, expected);
+    free(expected);
+}
+
 /// One warning, and the map is drawn all the same.
 static void tiles_that_cannot_be_saved_are_warned_of_once(void **state) {
     float *expected = draw_whole(*state, false);
@@ -350,6 +390,7 @@ static void a_lack_of_memory_is_survived(void **state) {
         process.recorder.host.allocator = &counting.allocator;
         process.work = work_of(1, 0, 0);
         process.work.most_texels = 16384;
+        process.work.free_bytes = UINT64_MAX;
         const lobe_result result = passes_kept_transfer_prepare(
             &process.windows.run.context, 0, &process.windows.kind, &process.slot);
         assert_true(result == LOBE_OK || result == LOBE_ERROR_OUT_OF_MEMORY);
@@ -367,6 +408,7 @@ int main(void) {
         IN_TEST_FOLDER(what_was_saved_is_drawn),
         IN_TEST_FOLDER(bad_tiles_are_replaced),
         IN_TEST_FOLDER(tiles_of_another_device_are_replaced),
+        IN_TEST_FOLDER(tiles_are_loaded_beside_the_map),
         IN_TEST_FOLDER(tiles_that_cannot_be_saved_are_warned_of_once),
         IN_TEST_FOLDER(a_lack_of_memory_is_survived),
     };
