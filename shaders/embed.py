@@ -20,25 +20,13 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-
-import early_returns
 
 STAGES = (".vert", ".frag", ".comp")
 FILTER_INCLUDE = re.compile(r'^\s*#\s*include\s+"filter\.glsl"', re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 VARIANTS = re.compile(r"^\s*#\s*pragma\s+variants\s+(.*)$", re.MULTILINE)
-# Drivers inline all functions anyway. Where they need not do it, and meet no variables that merely
-# pass arguments, lavapipe creates a shading pipeline in half the time. Branches that a variant does
-# not take go before that: they would be inlined at every call. Bindings and specialisation
-# constants stay, also those that no code uses.
-PRESERVE = ("--preserve-bindings", "--preserve-spec-constants")
-BEFORE_INLINING = (*PRESERVE, "--eliminate-dead-branches", "--eliminate-dead-functions")
-INLINING = (*PRESERVE, "--inline-entry-points-exhaustive", "--eliminate-dead-functions",
-            "--eliminate-local-single-block", "--eliminate-local-single-store",
-            "--eliminate-dead-code-aggressive")
 
 
 @dataclass(frozen=True)
@@ -108,73 +96,38 @@ def content_digest(path):
 def digest_of(tools, folders, shader):
     """Changes with whatever decides a shader's words. Each build has a compiler of its own, but
     they are the same bytes."""
-    parts = [repr(shader), repr((BEFORE_INLINING, INLINING))]
+    parts = [repr(shader), content_digest(tools.compiler)]
     parts += [os.path.relpath(path, folders[0]) for path in folders]
-    parts.append(content_digest(tools.compiler))
-    for tool in (tools.validator, tools.optimiser):
-        status = os.stat(tool)
-        parts.append(f"{tool} {status.st_size} {status.st_mtime_ns}")
     parts += [f"{os.path.relpath(path, folders[0])} {content_and_includes(path)[0]}"
               for path in files_of(folders, shader)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def run(name, command):
-    """Raises with the command's own output if it fails."""
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"{name}:\n{done.stdout}")
-
-
-def spirv_of(scratch, shader):
-    return Path(scratch) / (shader.name + ".spv")
-
-
-def compile_shaders(tools, folders, scratch, shaders):
-    """Writes the SPIR-V of several shaders with one process."""
+def compile_shaders(tools, folders, outputs, shaders):
+    """Compiles several shaders with one process. Raises with its own output if it fails."""
     command = [tools.compiler, *(str(folder) for folder in folders)]
     if len(folders) == 1:
         command.append("")
     for shader in shaders:
-        spirv_of(scratch, shader).parent.mkdir(parents=True, exist_ok=True)
         command += [shader.name, shader.source, " ".join(shader.definitions), shader.substitute,
-                    str(spirv_of(scratch, shader))]
-    run("compile_shaders", command)
+                    str(outputs[shader])]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    if done.returncode != 0:
+        raise RuntimeError(done.stdout or f"{tools.compiler}: status {done.returncode}")
 
 
-def optimise(tools, scratch, kept, shader):
-    """Optimises the SPIR-V of one shader, and keeps it. The compiler sometimes generates invalid
-    SPIR-V for constants computed from specialisation constants, and the optimiser keeps these: the
-    validator sees what a driver will see. It takes ten times as long before functions are
-    inlined."""
-    spirv = spirv_of(scratch, shader)
-    command = [tools.optimiser, "--target-env=vulkan1.3", "--skip-validation", str(spirv),
-               "-o", str(spirv)]
-    run(shader.name, [*command, *BEFORE_INLINING])
-    early_returns.mark(spirv)
-    run(shader.name, [*command, *INLINING])
-    early_returns.clear(spirv)
-    run(shader.name, [tools.validator, "--target-env", "vulkan1.3", str(spirv)])
-    replace_file(kept, spirv.read_bytes())
-
-
-def in_parallel(function, items):
-    """Calls it for each item. Raises one error with what all failures say."""
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        futures = [pool.submit(function, item) for item in items]
+def compile_missing(tools, folders, missing):
+    """Compiles the shaders whose words are not kept. `missing` maps them to where they will be.
+    Raises one error with what all failures say."""
+    processes = os.cpu_count()
+    shares = [list(missing)[first::processes] for first in range(min(processes, len(missing)))]
+    with concurrent.futures.ThreadPoolExecutor(processes) as pool:
+        futures = [pool.submit(compile_shaders, tools, folders, missing, share)
+                   for share in shares]
     failures = [str(future.exception()) for future in futures if future.exception()]
     if failures:
         raise RuntimeError("\n".join(failures))
-
-
-def make(tools, folders, missing):
-    """Compiles the shaders whose words are not kept. `missing` maps them to where they will be."""
-    shares = [list(missing)[first::os.cpu_count()] for first in range(os.cpu_count())]
-    with tempfile.TemporaryDirectory() as scratch:
-        in_parallel(functools.partial(compile_shaders, tools, folders, scratch),
-                    filter(None, shares))
-        in_parallel(lambda shader: optimise(tools, scratch, missing[shader], shader), missing)
 
 
 def kept_folder(arguments):
@@ -242,8 +195,6 @@ def replace_file(path, content):
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--compiler", required=True, help="compile_shaders")
-    parser.add_argument("--validator", required=True, help="spirv-val")
-    parser.add_argument("--optimiser", required=True, help="spirv-opt")
     parser.add_argument("--folder", required=True, type=Path, help="where the passes are")
     parser.add_argument("--include", type=Path,
                         help="folder to look for includes in, after --folder itself")
@@ -262,9 +213,9 @@ def main():
                      key=lambda shader: shader.name)
     kept_folder(arguments).mkdir(exist_ok=True)
     kept = [kept_folder(arguments) / digest_of(arguments, folders, shader) for shader in shaders]
+    missing = {shader: path for shader, path in zip(shaders, kept) if not path.is_file()}
     try:
-        make(arguments, folders, {shader: path for shader, path in zip(shaders, kept)
-                                  if not path.is_file()})
+        compile_missing(arguments, folders, missing)
     except RuntimeError as failures:
         print(failures, file=sys.stderr)
         return 1
