@@ -68,3 +68,15 @@ void passes_bin_appearance_bind(const filter_context *context, uint32_t material
                          moments ? moments->format : LOBE_FORMAT_RGBA16_SNORM, appearance);
     passes_appearance_bind(appearance, "binning_block", bins, (lobe_sampler){0});
 }
+
+void passes_bin_likeness_bind(const filter_context *context, uint32_t material,
+                              const moment_map *moments, filtered_appearance *appearance) {
+    const device_material *uploaded = &context->scene->materials[material];
+    const lobe_grid grid = passes_lobe_grid(uploaded);
+    const lobe_resource other =
+        moments ? moments->map.resource
+                : lobe_graph_import_texture(context->graph, context->scene->white);
+    passes_appearance_bind(appearance, "likeness_map",
+                           moments && moments->likeness.version ? moments->likeness : other,
+                           passes_filtered_map_sampler(context, uploaded, grid.map));
+}

@@ -12,6 +12,9 @@ typedef struct moment_map {
     reduced_map map;
     lobe_format format;
     lobe_resource bins; ///< uniform block of struct moment_binning_constants
+    /// Where bins must not be blended with neighbouring texels' (mixture_likeness); version 0: they
+    /// always may.
+    lobe_resource likeness;
 } moment_map;
 
 extern const filter_knob passes_knob_least_share, passes_knob_bin_storage;
@@ -35,5 +38,9 @@ bool passes_bin_widths_vary(const device_material *material);
 /// Binds the map and the colour maps to the shading. `moments`: NULL if lobes do not vary.
 void passes_bin_appearance_bind(const filter_context *context, uint32_t material,
                                 const moment_map *moments, filtered_appearance *appearance);
+/// For the shading of moments.glsl: binds `likeness`, or what stands for it where the shader is not
+/// specialised to read it. `moments`: as above.
+void passes_bin_likeness_bind(const filter_context *context, uint32_t material,
+                              const moment_map *moments, filtered_appearance *appearance);
 
 #endif

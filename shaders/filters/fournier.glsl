@@ -46,7 +46,7 @@ weighted_texel texel_around(map_area area, uint index) {
     bool coarser = index >= 4u;
     weighted_texel texel;
     texel.level = min(floor(level) + (coarser ? 1.0 : 0.0), last);
-    vec2 size = vec2(textureSize(moment_map, int(texel.level)).xy);
+    vec2 size = size_of_level(textureSize(moment_map, 0).xy, texel.level);
     vec2 place = area.centre * size - 0.5, low = floor(place), part = place - low;
     vec2 corner = vec2(index & 1u, (index >> 1u) & 1u);
     vec2 weight = mix(1.0 - part, part, corner);

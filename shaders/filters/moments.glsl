@@ -160,22 +160,14 @@ void add_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place, surfa
         add_bin_to_light(sum, bin, halfway, place);
 }
 
-void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
-    if (!FILTERED_LOBES)
-        return;
-    vec3 halfway[4];
-    vec2 places[4];
-    for (int i = 0; i < 4; ++i) {
-        halfway[i] = bin_half_vector(surface, incoming[i]);
-        places[i] = plane_from_direction(halfway[i]);
-    }
-    fetched.first = fetched.second = fetched.third = fetched.fourth = no_light();
-    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
-    bin_means means = no_bins();
+// The bins of one texel, or of the blend of several: of what `area` fetches, which has this weight.
+void gather_bins(inout appearance fetched, inout bin_means means, surface_point surface,
+                 map_area area, float weight, vec3 incoming[4], vec3 halfway[4],
+                 vec2 places[4]) {
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, fetched.area, fetched.mass_scale, i);
+        plane_bin bin = read_bin(surface, area, weight * fetched.mass_scale, i);
         // A footprint's lobes together have a mass of at least one.
-        if (bin.mass <= filter_knobs.least_share)
+        if (bin.mass <= weight * filter_knobs.least_share)
             continue;
         add_to_means(means, bin, surface.outgoing);
         fetched.lobe_count += 1.0;
@@ -188,6 +180,27 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
             add_bin(fetched.fourth, bin, halfway[3], places[3], surface, incoming[3]);
         if (CLOSED)
             add_exchange(fetched, surface, bin, incoming);
+    }
+}
+
+void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
+    if (!FILTERED_LOBES)
+        return;
+    vec3 halfway[4];
+    vec2 places[4];
+    for (int i = 0; i < 4; ++i) {
+        halfway[i] = bin_half_vector(surface, incoming[i]);
+        places[i] = plane_from_direction(halfway[i]);
+    }
+    fetched.first = fetched.second = fetched.third = fetched.fourth = no_light();
+    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    bin_means means = no_bins();
+    texels_seen seen = find_texels(fetched.area);
+    for (uint i = 0u; i < seen.count; ++i) {
+        float weight;
+        map_area area = area_of_texel(fetched.area, seen, i, weight);
+        if (weight > 0.0)
+            gather_bins(fetched, means, surface, area, weight, incoming, halfway, places);
     }
     take_means(fetched, surface, means);
 }
@@ -363,23 +376,37 @@ vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin
                           parameter_of_plane_variance(DISTRIBUTION, bin.variance));
 }
 
-vec3 reflect_bins(inout appearance fetched, surface_point surface) {
+// As gather_bins.
+vec3 reflect_texel(inout appearance fetched, inout bin_means means, surface_point surface,
+                   map_area area, float weight) {
     vec3 sum = vec3(0.0);
-    bin_means means = no_bins();
-    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, fetched.area, fetched.mass_scale, i);
-        if (bin.mass <= filter_knobs.least_share)
+        plane_bin bin = read_bin(surface, area, weight * fetched.mass_scale, i);
+        if (bin.mass <= weight * filter_knobs.least_share)
             continue;
         add_to_means(means, bin, surface.outgoing);
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
         vec3 reflected = CLOSED ? reflect_closed_bin(fetched, surface, bin, f0)
-                                          : reflect_bin(surface, bin, f0);
+                                : reflect_bin(surface, bin, f0);
         reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
             reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * lobes_colour();
         sum += reflected;
+    }
+    return sum;
+}
+
+vec3 reflect_bins(inout appearance fetched, surface_point surface) {
+    vec3 sum = vec3(0.0);
+    bin_means means = no_bins();
+    fetched.lobe_count = fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
+    texels_seen seen = find_texels(fetched.area);
+    for (uint i = 0u; i < seen.count; ++i) {
+        float weight;
+        map_area area = area_of_texel(fetched.area, seen, i, weight);
+        if (weight > 0.0)
+            sum += reflect_texel(fetched, means, surface, area, weight);
     }
     take_means(fetched, surface, means);
     return (1.0 - fetched.base_share) * sum;

@@ -52,6 +52,7 @@
 
 #define MIXTURE_START_PARENT      0 // the components of the texel's parent
 #define MIXTURE_START_K_MEANS     1 // the texel's lobes alone
+#define MIXTURE_START_CLOSEST     2 // whichever of both lead closer to the lobes
 #define MIXTURE_ROUNDS_OF_K_MEANS 5 // of mixture_level
 
 // Least values over the texels of a tile: the negative of what is largest.
@@ -69,11 +70,30 @@ struct mixture_fit_constants {
     uint steps;     // of expectation maximisation
     float prior;    // how many samples a neighbour's component is worth, times its part
     uint first_row; // of mixture_level's texels
+    uint own_steps; // MIXTURE_START_CLOSEST: from a texel's own start; 0: that is not tried
+    // The same: of the squared lobes, that these components must be closer than those from the
+    // parent's.
+    float least_gain;
 };
-INTERFACE_SIZE(mixture_fit_constants, 20)
+INTERFACE_SIZE(mixture_fit_constants, 28)
 INTERFACE_OFFSET(mixture_fit_constants, height, 4)
 INTERFACE_OFFSET(mixture_fit_constants, steps, 8)
 INTERFACE_OFFSET(mixture_fit_constants, prior, 12)
 INTERFACE_OFFSET(mixture_fit_constants, first_row, 16)
+INTERFACE_OFFSET(mixture_fit_constants, own_steps, 20)
+INTERFACE_OFFSET(mixture_fit_constants, least_gain, 24)
+
+// Push constants of mixture_likeness, which writes for the four texels of a level that start at
+// one, as a bilinear sampler blends them: 1 where two of them have components too unlike for that,
+// else 0.5 where one and its parent have, else 0.
+struct mixture_likeness_constants {
+    uint mirrored_x; // bool: the map is
+    uint mirrored_y;
+    uint level;      // of the mixture's map
+    float tolerance; // squared error of a blend halfway, in parts of the texel's squared mixture
+};
+INTERFACE_SIZE(mixture_likeness_constants, 16)
+INTERFACE_OFFSET(mixture_likeness_constants, level, 8)
+INTERFACE_OFFSET(mixture_likeness_constants, tolerance, 12)
 
 #endif

@@ -24,6 +24,12 @@
 #define SPECIALISE_BIN_WIDTHS (SPECIALISE_FILTER + 23) // bool: base lobes differ in width
 // bool: texels of colour maps may exceed one
 #define SPECIALISE_BRIGHT_TEXELS (SPECIALISE_FILTER + 24)
+#define SPECIALISE_SINGLE_TEXELS (SPECIALISE_FILTER + 29) // uint, SINGLE_TEXELS_...
+
+// Which texels' bins are evaluated one by one, not blended with those of texels around.
+#define SINGLE_TEXELS_NEVER  0
+#define SINGLE_TEXELS_UNLIKE 1 // where the map `likeness_map` is not 0
+#define SINGLE_TEXELS_ALWAYS 2
 
 // Numbers of the filter's knobs (see knobs.h).
 struct moments_knobs {

@@ -33,6 +33,12 @@ float fetched_level(map_area area) {
            clamp((coarser - 0.5) / max(knobs.level_blend, 1e-3) + 0.5, 0.0, 1.0);
 }
 
+// Texels of a level, of a map of `size` texels. (lavapipe's textureSize takes the level of one of
+// several pixels for all of them.)
+vec2 size_of_level(ivec2 size, float level) {
+    return vec2(max(size >> int(level), ivec2(1)));
+}
+
 // One probe of a filtered map; the second, of one of its layers. An anisotropic sampler takes the
 // level of the ellipse's width, and spreads its own samples along the length. Gradients of texture
 // coordinates fit any map's size, so that a filtered map's own level 0 is again level 1.

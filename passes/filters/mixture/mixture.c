@@ -2,10 +2,16 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/filters/mixture/knobs.h"
+#include "passes/filters/mixture/likeness.h"
 #include "passes/filters/mixture/record.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/kept/record.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/gaussian_mixture.h"
+#include "shaders/interface/moment_bins.h"
+
+/// After k-means.
+enum { OWN_STEPS = 4 };
 
 static const char *const shapes[] = {"auto", "round", "oval", NULL};
 static const char *const colours[] = {"auto", "mean", "components", NULL};
@@ -32,11 +38,23 @@ static const filter_knob colour_knob = {
                     .sweep = "mean,components"},
     .decides_slots = true,
 };
+static const filter_knob blend_error_knob = {
+    .description = {.name = "blend_error",
+                    .summary =
+                        "squared error, in parts of the squared lobes, up to which components are "
+                        "blended with neighbouring texels', and texels keep those of coarser "
+                        "ones; 0: all are evaluated one by one; 1: all are blended",
+                    .maximum = 1,
+                    .initial = 0.01,
+                    .sweep = "0,0.1,1"},
+    .decides_slots = true,
+};
 static const filter_knob *const knobs[] = {
     &passes_knob_components,
     &passes_knob_fit_steps,
     &shape_knob,
     &colour_knob,
+    &blend_error_knob,
     &passes_knob_least_share,
     &passes_knob_probes,
     &passes_knob_anisotropy,
@@ -56,12 +74,22 @@ static bool has_own_colours(const filter_context *context, const device_material
     return choice == OWN || passes_specular_colour_varies(material);
 }
 
+/// Of maps that are read by the device's own sampler it alone knows the texels.
+static double blend_error(const filter_context *context) {
+    return passes_knob_value(context, &passes_knob_anisotropy) > 1
+               ? 1
+               : passes_knob_value(context, &blend_error_knob);
+}
+
 static mixture_kind kind_of(const filter_context *context, uint32_t material) {
     return (mixture_kind){
         .components = (uint32_t)passes_knob_value(context, &passes_knob_components),
         .steps = (uint32_t)passes_knob_value(context, &passes_knob_fit_steps),
         .shape = passes_knob_choice(context, &shape_knob),
         .own_colours = has_own_colours(context, &context->scene->materials[material]),
+        .start = blend_error(context) < 1 ? MIXTURE_START_CLOSEST : MIXTURE_START_PARENT,
+        .own_steps = OWN_STEPS,
+        .least_gain = (float)blend_error(context),
         .format = passes_bin_format(context),
     };
 }
@@ -71,16 +99,32 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
     return passes_mixture_prepare(context, material, &kind, slot);
 }
 
+/// Which texels shading evaluates one by one.
+static void find_single_texels(const filter_context *context, uint32_t material,
+                               const mixture_kind *kind, moment_map *mixture,
+                               filtered_appearance *appearance) {
+    const double error = blend_error(context);
+    const uint32_t single = error >= 1  ? SINGLE_TEXELS_NEVER
+                            : error > 0 ? SINGLE_TEXELS_UNLIKE
+                                        : SINGLE_TEXELS_ALWAYS;
+    if (single == SINGLE_TEXELS_UNLIKE)
+        mixture->likeness = passes_mixture_likeness(context, material, kind, mixture, (float)error);
+    passes_appearance_specialise(appearance, SPECIALISE_SINGLE_TEXELS, single);
+}
+
 static void build(const filter_context *context, size_t instance, const void *prepared,
                   filtered_appearance *appearance) {
     const uint32_t material = context->scene->instances[instance].material;
     const mixture_kind kind = kind_of(context, material);
-    moment_map mixture;
+    moment_map mixture = {0};
     const bool has = passes_mixture_build(context, material, &kind, prepared, &mixture);
-    if (has)
+    if (has) {
         passes_bins_specialise(&context->scene->materials[material], kind.components,
                                kind.own_colours, appearance);
+        find_single_texels(context, material, &kind, &mixture, appearance);
+    }
     passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
+    passes_bin_likeness_bind(context, material, has ? &mixture : NULL, appearance);
 }
 
 const lobe_filter passes_filter_mixture = {

@@ -10,10 +10,12 @@
 
 uint64_t passes_mixture_kind_digest(const filter_context *context, const mixture_kind *kind) {
     uint64_t digest = passes_digest_bytes(MIXTURE_FILE_VERSION, &kind->prior, sizeof kind->prior);
+    digest = passes_digest_bytes(digest, &kind->least_gain, sizeof kind->least_gain);
     const uint64_t numbers[] = {kind->components,
                                 kind->steps,
                                 kind->plane,
                                 kind->start,
+                                kind->own_steps,
                                 kind->shape,
                                 kind->is_printed,
                                 kind->own_colours,

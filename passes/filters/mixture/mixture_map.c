@@ -28,9 +28,12 @@ typedef struct mixture_build {
 /// lavapipe leaves all loops of a thread when it has gone through them 65535 times in all.
 static uint32_t find_largest_box(const device_material *material, const mixture_kind *kind) {
     enum { ITERATIONS = 60000 };
-    const uint32_t start =
-        kind->start == MIXTURE_START_K_MEANS ? kind->components + MIXTURE_ROUNDS_OF_K_MEANS : 0;
-    const uint32_t each = (start + kind->steps + 1) * (material->lobe_count + 1);
+    uint32_t rounds = kind->steps + 1;
+    if (kind->start != MIXTURE_START_PARENT)
+        rounds += kind->components + MIXTURE_ROUNDS_OF_K_MEANS;
+    if (kind->start == MIXTURE_START_CLOSEST)
+        rounds += kind->own_steps + 2; // errors of both
+    const uint32_t each = rounds * (material->lobe_count + 1);
     uint32_t box = 64;
     while ((box + 2) * (box + 2) * each > ITERATIONS)
         box /= 2;
@@ -98,7 +101,8 @@ static lobe_resource write_components(lobe_pass *pass, lobe_resource components)
 
 /// Of the rows from `first_row` on.
 static void dispatch_rows(const mixture_build *build, const char *shader, uint32_t columns,
-                          uint32_t first_row, uint32_t rows, uint32_t steps, lobe_pass *pass) {
+                          uint32_t first_row, uint32_t rows, uint32_t steps, uint32_t own_steps,
+                          lobe_pass *pass) {
     const device_material *material = build->material;
     specialisation_list list = {.graph = build->graph};
     passes_specialise(&list, SPECIALISE_LOBE_COUNT, material->lobe_count);
@@ -110,8 +114,13 @@ static void dispatch_rows(const mixture_build *build, const char *shader, uint32
     passes_specialise(&list, SPECIALISE_MIXTURE_PLANE, build->kind->plane);
     passes_specialise(&list, SPECIALISE_MIXTURE_START, build->kind->start);
     passes_specialise(&list, SPECIALISE_MIXTURE_PRINTED, build->kind->is_printed);
-    const struct mixture_fit_constants constants = {build->samples.width, build->samples.height,
-                                                    steps, build->kind->prior, first_row};
+    const struct mixture_fit_constants constants = {build->samples.width,
+                                                    build->samples.height,
+                                                    steps,
+                                                    build->kind->prior,
+                                                    first_row,
+                                                    own_steps,
+                                                    build->kind->least_gain};
     lobe_pass_dispatch(pass, &(lobe_dispatch){
                                  .shader = shader,
                                  .threads = {columns, rows, 1},
@@ -124,7 +133,7 @@ static void dispatch_rows(const mixture_build *build, const char *shader, uint32
 
 static void dispatch(const mixture_build *build, const char *shader, uint32_t columns,
                      uint32_t rows, uint32_t steps, lobe_pass *pass) {
-    dispatch_rows(build, shader, columns, 0, rows, steps, pass);
+    dispatch_rows(build, shader, columns, 0, rows, steps, 0, pass);
 }
 
 static void add_root(mixture_build *build) {
@@ -148,7 +157,7 @@ static void add_root(mixture_build *build) {
 /// Components that a search finds for a texel are less like its neighbours' than its parent's are:
 /// only at the level whose texels are quarters of the map.
 static bool is_searched(const mixture_kind *kind, uint32_t width, uint32_t height) {
-    return kind->start == MIXTURE_START_PARENT && !kind->is_printed &&
+    return kind->start != MIXTURE_START_K_MEANS && !kind->is_printed &&
            (width > height ? width : height) == 2;
 }
 
@@ -230,6 +239,10 @@ static uint32_t steps_of_level(const mixture_kind *kind, uint32_t level) {
     return level > 0 || kind->is_printed ? kind->steps : 0;
 }
 
+static uint32_t own_steps_of(const mixture_kind *kind) {
+    return kind->start == MIXTURE_START_CLOSEST ? kind->own_steps : 0;
+}
+
 /// Bands of a level's rows, so that each takes about a quarter of a second of lavapipe's time at
 /// most.
 typedef struct level_bands {
@@ -240,8 +253,10 @@ typedef struct level_bands {
 static level_bands bands_of_level(const mixture_kind *kind, uint32_t lobe_count,
                                   const lobe_grid *grid, uint32_t level) {
     enum { GROUP_ROWS = 8 };
-    const uint64_t visits =
-        (uint64_t)grid->width * grid->height * lobe_count * (steps_of_level(kind, level) + 1);
+    uint32_t rounds = steps_of_level(kind, level) + 1;
+    if (kind->start == MIXTURE_START_CLOSEST)
+        rounds += kind->components + MIXTURE_ROUNDS_OF_K_MEANS + kind->own_steps + 2;
+    const uint64_t visits = (uint64_t)grid->width * grid->height * lobe_count * rounds;
     const uint64_t most = (uint64_t)1 << 23;
     const uint32_t groups =
         (level_extent(passes_half_extent(grid->height), level) + GROUP_ROWS - 1) / GROUP_ROWS;
@@ -270,7 +285,7 @@ static lobe_pass *add_band(mixture_build *build, uint32_t level, uint32_t band, 
     const uint32_t first = band * rows;
     dispatch_rows(build, "filters/mixture/level.comp", width, first,
                   height - first < rows ? height - first : rows, steps_of_level(build->kind, level),
-                  pass);
+                  own_steps_of(build->kind), pass);
     return pass;
 }
 

@@ -7,7 +7,7 @@
 
 #define COMPONENTS 7 // MIXTURE_MAXIMUM_COMPONENTS
 #include "filters/mixture/group_fit.glsl"
-#include "lib/lobe/plane_gaussian.glsl"
+#include "filters/mixture/overlap.glsl"
 
 const uint ROUNDS = 25;
 const uint MERGED = 2; // the third kind of start
@@ -32,28 +32,11 @@ void keep_components() {
 // ---------------------------------------------------------------------------------------------
 // How close components are to the lobes
 
-// The variance of base lobes of a width.
-vec3 base_covariance(float width, mixture_units units) {
-    float deviation = units.deviation * exp(width / units.deviation);
-    return vec3(vec2(deviation * deviation), 0.0);
-}
-
-// The integral of a component with base lobes, times the sample's lobe, for all components.
-float overlap_with_sample(mixture_sample lobe, mixture_units units) {
+float overlap_of_all(mixture_sample lobe, mixture_units units) {
     float sum = 0.0;
     for (int j = 0; j < COMPONENTS; ++j)
-        sum += components[j].part *
-               evaluate_plane_gaussian(
-                   make_plane_gaussian(components[j].covariance.xyz + lobe.covariance +
-                                           base_covariance(components[j].mean.z, units) +
-                                           base_covariance(lobe.place.z, units),
-                                       1.0),
-                   lobe.place.xy - components[j].mean.xy);
+        sum += overlap(components[j], lobe, units);
     return sum;
-}
-
-mixture_sample as_sample(mixture_component component) {
-    return mixture_sample(component.mean, component.covariance.xyz, vec2(0.0), component.part);
 }
 
 // The squared difference between all components and all lobes, integrated over the plane, without
@@ -71,8 +54,8 @@ float squared_error(sampled_area area, mixture_units units) {
             other = area_sample(area, i, units);
         else
             other = as_sample(components[i - count]);
-        float overlap = other.mass * overlap_with_sample(other, units);
-        sums += is_lobe ? vec3(overlap, 0.0, other.mass) : vec3(0.0, overlap, 0.0);
+        float over = other.mass * overlap_of_all(other, units);
+        sums += is_lobe ? vec3(over, 0.0, other.mass) : vec3(0.0, over, 0.0);
     }
     for (uint k = 0u; k < 3u; ++k)
         own_numbers[k][thread()] = sums[k];

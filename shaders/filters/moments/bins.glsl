@@ -4,8 +4,7 @@
 // Bins of a map of lobe moments (interface/moment_bins.h) as a pixel sees them, and their sum for a
 // light.
 
-#include "shading/filtered_maps.glsl"
-#include "interface/moment_bins.h"
+#include "filters/moments/texels_seen.glsl"
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
@@ -13,7 +12,6 @@ layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 
 #include "filters/moments/plane_bin.glsl"
 
-layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
 layout(LOBE_DESCRIPTOR(22), std140) uniform binning_block { moment_binning_constants binning; };
 
 float colour_unit() {

@@ -110,9 +110,9 @@ static void every_knob_draws_at_both_ends(void **state) {
     assert_int_equal(f->errors, 0);
 }
 
-/// `fournier`: seven peaks of eight texels, and base lobes.
+/// `fournier`: seven peaks of eight texels, and base lobes; `mixture`: four components of these.
 static float most_lobes(const char *filter) {
-    return strcmp(filter, "fournier") == 0 ? 60 : 15;
+    return strcmp(filter, "fournier") == 0 ? 60 : strcmp(filter, "mixture") == 0 ? 36 : 15;
 }
 
 /// Views show plausible numbers: whole lobes, levels that the maps have.

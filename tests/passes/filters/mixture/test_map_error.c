@@ -370,6 +370,26 @@ static void neighbours_blend(void **state) {
     assert_true(peaks.corner <= peaks.centre && peaks.corner <= 0.5 * alone.corner);
 }
 
+/// Leaves on soil, bricks in mortar: where texels differ, corners are only as accurate as centres
+/// because their components are not blended.
+static void corners_of_texels_that_differ_are_as_accurate(void **state) {
+    static const int materials[] = {5, 7};
+    for (int i = 0; i < 2; i++) {
+        lobe_image colours;
+        measured_map map = {changing_material(materials[i], EXTENT, &colours), &colours};
+        const map_error single = measure(*state, &map, 8, "mixture", (const char *[6]){NULL});
+        const map_error blended =
+            measure(*state, &map, 8, "mixture", (const char *[6]){"blend_error=1"});
+        print_message("# %s: single %.4f %.4f, blended %.4f %.4f\n",
+                      changing_material_names[materials[i]], single.centre, single.corner,
+                      blended.centre, blended.corner);
+        assert_true(single.corner <= 1.3 * single.centre && single.centre <= blended.centre);
+        assert_true(blended.corner > 1.7 * blended.centre);
+        lobe_image_free(&map.lobes);
+        lobe_image_free(&colours);
+    }
+}
+
 /// Where relief, sharpness and colour change over the map, at equal bytes. Of the two bumps, each
 /// in half of the map, that is so only because quarters of the map search for components of their
 /// own.
@@ -422,6 +442,7 @@ static void several_lobes_of_slopes_halve_the_error_of_one(void **state) {
 int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_blend),
+        cmocka_unit_test(corners_of_texels_that_differ_are_as_accurate),
         cmocka_unit_test(materials_that_change_are_fitted_better),
         cmocka_unit_test(lobes_of_two_widths_at_one_place_are_parted),
         cmocka_unit_test(several_lobes_of_slopes_halve_the_error_of_one),
