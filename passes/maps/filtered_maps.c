@@ -38,6 +38,7 @@ const filter_knob passes_knob_anisotropy = {
                     .maximum = 16,
                     .initial = 1},
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_ANISOTROPY),
+    .decides_slots = true,
     .needs = "samplerAnisotropy",
 };
 const filter_knob passes_knob_bias = {

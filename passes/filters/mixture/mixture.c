@@ -38,14 +38,20 @@ static const filter_knob colour_knob = {
                     .sweep = "mean,components"},
     .decides_slots = true,
 };
+/// A choice, because each value has maps of its own.
+static const char *const blend_errors[] = {"0", "0.001", "0.01", "0.1", "1", NULL};
+static const double blend_error_values[] = {0, 0.001, 0.01, 0.1, 1};
+
 static const filter_knob blend_error_knob = {
     .description = {.name = "blend_error",
                     .summary =
-                        "squared error, in parts of the squared lobes, up to which components are "
+                        "squared error, in parts of what is blended, up to which components are "
                         "blended with neighbouring texels', and texels keep those of coarser "
                         "ones; 0: all are evaluated one by one; 1: all are blended",
-                    .maximum = 1,
-                    .initial = 0.01,
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 4,
+                    .initial = 2,
+                    .choices = blend_errors,
                     .sweep = "0,0.1,1"},
     .decides_slots = true,
 };
@@ -78,7 +84,7 @@ static bool has_own_colours(const filter_context *context, const device_material
 static double blend_error(const filter_context *context) {
     return passes_knob_value(context, &passes_knob_anisotropy) > 1
                ? 1
-               : passes_knob_value(context, &blend_error_knob);
+               : blend_error_values[passes_knob_choice(context, &blend_error_knob)];
 }
 
 static mixture_kind kind_of(const filter_context *context, uint32_t material) {

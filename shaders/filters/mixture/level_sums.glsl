@@ -113,8 +113,11 @@ bool start_apart(level_box box, mixture_units units,
             for (uint x = box.low.x; x < box.high.x; ++x) {
                 mixture_sample lobe = read_sample(ivec2(x, y), int((x + y) % LOBE_COUNT), units);
                 float nearest = count == 0 ? squared_distance(lobe, vec3(0.0), units) : 1e30;
-                for (int j = 0; j < count; ++j)
-                    nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
+                // Unrolled: lavapipe leaves loops after 65535 turns in all.
+                [[unroll]]
+                for (int j = 0; j + 1 < BINS; ++j)
+                    if (j < count)
+                        nearest = min(nearest, squared_distance(lobe, components[j].mean, units));
                 if (MASKED_LOBES)
                     nearest *= lobe.mass;
                 if (nearest > farthest) {

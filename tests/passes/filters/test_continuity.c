@@ -128,10 +128,10 @@ static void a_view_that_zooms_past_the_finest_level(void **state) {
     no_jumps(*state, aside, 50, &path);
 }
 
-/// Nor where what is blended ends: with `blend_error=0` steps are as large.
+/// Nor where what is blended ends: blended, steps are up to 0.038, one by one 0.025.
 static void unlike_texels_do_not_jump(void **state) {
     fixture *f = *state;
-    const view_path moves = {.pixels = 1.1, .footprint = 7.7, .most = 0.035};
+    const view_path moves = {.pixels = 1.1, .footprint = 7.7, .most = 0.042};
     const view_path zooms = {.levels = 0.5, .footprint = 6.6, .most = 0.06};
     lobe_scene *scene = rough_plate(patches(), above, 50);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
