@@ -12,8 +12,8 @@ typedef struct moment_map {
     reduced_map map;
     lobe_format format;
     lobe_resource bins; ///< uniform block of struct moment_binning_constants
-    /// Where bins must not be blended with neighbouring texels' (mixture_likeness); version 0: they
-    /// always may.
+    /// Where bins must not be blended with those of neighbouring texels (mixture_likeness); version
+    /// 0: they may be everywhere.
     lobe_resource likeness;
 } moment_map;
 

@@ -7,6 +7,7 @@
 #include "shading/mask.glsl"
 #include "filters/mixture/projected.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
+#include "lib/map/bilinear_texel.glsl"
 
 struct phong_peak {
     float part; // of the pixel
@@ -47,11 +48,9 @@ weighted_texel texel_around(map_area area, uint index) {
     weighted_texel texel;
     texel.level = min(floor(level) + (coarser ? 1.0 : 0.0), last);
     vec2 size = size_of_level(textureSize(moment_map, 0).xy, texel.level);
-    vec2 place = area.centre * size - 0.5, low = floor(place), part = place - low;
-    vec2 corner = vec2(index & 1u, (index >> 1u) & 1u);
-    vec2 weight = mix(1.0 - part, part, corner);
-    texel.weight = weight.x * weight.y * (coarser ? fract(level) : 1.0 - fract(level));
-    texel.position = (low + corner + 0.5) / size;
+    bilinear_texel one = find_bilinear_texel(area.centre, size, index);
+    texel.weight = one.weight * (coarser ? fract(level) : 1.0 - fract(level));
+    texel.position = one.position;
     return texel;
 }
 

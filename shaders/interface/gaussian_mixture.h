@@ -85,12 +85,12 @@ INTERFACE_OFFSET(mixture_fit_constants, least_gain, 24)
 
 // Push constants of mixture_likeness, which writes for the four texels of a level that start at
 // one, as a bilinear sampler blends them: 1 where two of them have components too unlike for that,
-// else 0.5 where one and its parent have, else 0.
+// else 0.5 where they and what is blended of the next level around them have, else 0.
 struct mixture_likeness_constants {
     uint mirrored_x; // bool: the map is
     uint mirrored_y;
     uint level;      // of the mixture's map
-    float tolerance; // squared error of a blend halfway, in parts of the texel's squared mixture
+    float tolerance; // squared error of a blend halfway, in parts of what is blended
 };
 INTERFACE_SIZE(mixture_likeness_constants, 16)
 INTERFACE_OFFSET(mixture_likeness_constants, level, 8)

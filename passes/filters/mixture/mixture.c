@@ -80,7 +80,7 @@ static bool has_own_colours(const filter_context *context, const device_material
     return choice == OWN || passes_specular_colour_varies(material);
 }
 
-/// Of maps that are read by the device's own sampler it alone knows the texels.
+/// Where the device's own sampler reads the maps, only it knows which texels it takes.
 static double blend_error(const filter_context *context) {
     return passes_knob_value(context, &passes_knob_anisotropy) > 1
                ? 1
@@ -88,13 +88,14 @@ static double blend_error(const filter_context *context) {
 }
 
 static mixture_kind kind_of(const filter_context *context, uint32_t material) {
+    const bool tries_own = blend_error(context) < 1;
     return (mixture_kind){
         .components = (uint32_t)passes_knob_value(context, &passes_knob_components),
         .steps = (uint32_t)passes_knob_value(context, &passes_knob_fit_steps),
         .shape = passes_knob_choice(context, &shape_knob),
         .own_colours = has_own_colours(context, &context->scene->materials[material]),
-        .start = blend_error(context) < 1 ? MIXTURE_START_CLOSEST : MIXTURE_START_PARENT,
-        .own_steps = OWN_STEPS,
+        .start = tries_own ? MIXTURE_START_CLOSEST : MIXTURE_START_PARENT,
+        .own_steps = tries_own ? OWN_STEPS : 0,
         .least_gain = (float)blend_error(context),
         .format = passes_bin_format(context),
     };

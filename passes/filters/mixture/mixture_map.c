@@ -25,15 +25,23 @@ typedef struct mixture_build {
     uint32_t largest_box;
 } mixture_build;
 
+/// How often a thread goes through its texel's lobes to start from them.
+static uint32_t rounds_of_start(const mixture_kind *kind) {
+    return kind->components + MIXTURE_ROUNDS_OF_K_MEANS;
+}
+
+/// The same for components of the texel's own beside those from its parent's, with the errors of
+/// both.
+static uint32_t rounds_of_own(const mixture_kind *kind) {
+    return kind->own_steps > 0 ? rounds_of_start(kind) + kind->own_steps + 2 : 0;
+}
+
 /// lavapipe leaves all loops of a thread when it has gone through them 65535 times in all.
 static uint32_t find_largest_box(const device_material *material, const mixture_kind *kind) {
     enum { ITERATIONS = 60000 };
-    uint32_t rounds = kind->steps + 1;
-    if (kind->start != MIXTURE_START_PARENT)
-        rounds += kind->components + MIXTURE_ROUNDS_OF_K_MEANS;
-    if (kind->start == MIXTURE_START_CLOSEST)
-        rounds += kind->own_steps + 2; // errors of both
-    const uint32_t each = rounds * (material->lobe_count + 1);
+    const uint32_t start =
+        kind->start == MIXTURE_START_K_MEANS ? rounds_of_start(kind) : rounds_of_own(kind);
+    const uint32_t each = (start + kind->steps + 1) * (material->lobe_count + 1);
     uint32_t box = 64;
     while ((box + 2) * (box + 2) * each > ITERATIONS)
         box /= 2;
@@ -239,10 +247,6 @@ static uint32_t steps_of_level(const mixture_kind *kind, uint32_t level) {
     return level > 0 || kind->is_printed ? kind->steps : 0;
 }
 
-static uint32_t own_steps_of(const mixture_kind *kind) {
-    return kind->start == MIXTURE_START_CLOSEST ? kind->own_steps : 0;
-}
-
 /// Bands of a level's rows, so that each takes about a quarter of a second of lavapipe's time at
 /// most.
 typedef struct level_bands {
@@ -253,10 +257,8 @@ typedef struct level_bands {
 static level_bands bands_of_level(const mixture_kind *kind, uint32_t lobe_count,
                                   const lobe_grid *grid, uint32_t level) {
     enum { GROUP_ROWS = 8 };
-    uint32_t rounds = steps_of_level(kind, level) + 1;
-    if (kind->start == MIXTURE_START_CLOSEST)
-        rounds += kind->components + MIXTURE_ROUNDS_OF_K_MEANS + kind->own_steps + 2;
-    const uint64_t visits = (uint64_t)grid->width * grid->height * lobe_count * rounds;
+    const uint64_t visits = (uint64_t)grid->width * grid->height * lobe_count *
+                            (steps_of_level(kind, level) + 1 + rounds_of_own(kind));
     const uint64_t most = (uint64_t)1 << 23;
     const uint32_t groups =
         (level_extent(passes_half_extent(grid->height), level) + GROUP_ROWS - 1) / GROUP_ROWS;
@@ -285,7 +287,7 @@ static lobe_pass *add_band(mixture_build *build, uint32_t level, uint32_t band, 
     const uint32_t first = band * rows;
     dispatch_rows(build, "filters/mixture/level.comp", width, first,
                   height - first < rows ? height - first : rows, steps_of_level(build->kind, level),
-                  own_steps_of(build->kind), pass);
+                  build->kind->own_steps, pass);
     return pass;
 }
 

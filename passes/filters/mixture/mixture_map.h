@@ -10,7 +10,7 @@ typedef struct mixture_kind {
     uint32_t steps;      ///< of expectation maximisation in each level
     uint32_t plane;      ///< MIXTURE_PLANE_...; decides the map's layers, too
     uint32_t start;      ///< MIXTURE_START_...
-    uint32_t own_steps;  ///< MIXTURE_START_CLOSEST: from a texel's own start
+    uint32_t own_steps;  ///< MIXTURE_START_CLOSEST: from a texel's own start; else 0
     float least_gain;    ///< the same: what that must gain, in parts of the squared lobes
     float prior;         ///< samples that a neighbour's component is worth, times its part
     uint32_t shape;      ///< MIXTURE_SHAPE_...

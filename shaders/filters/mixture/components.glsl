@@ -140,6 +140,15 @@ void find_nearest(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixtu
         shares[j] = j == nearest ? 1.0 : 0.0;
 }
 
+// By densities or, `nearest`, by distance.
+void share_out(component_density densities[MIXTURE_MAXIMUM_COMPONENTS], mixture_sample lobe,
+               bool nearest, mixture_units units, out float shares[MIXTURE_MAXIMUM_COMPONENTS]) {
+    if (nearest)
+        find_nearest(densities, lobe, units, shares);
+    else
+        find_shares(densities, lobe, shares);
+}
+
 // A component at a sample, before the first step.
 mixture_component first_component(vec3 mean, mixture_units units) {
     float variance = units.deviation * units.deviation;

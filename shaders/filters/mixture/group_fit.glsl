@@ -105,10 +105,7 @@ void take_step(sampled_area area, bool nearest, mixture_units units) {
     for (uint i = thread(); i < sample_count(area); i += THREADS) {
         mixture_sample lobe = area_sample(area, i, units);
         float shares[MIXTURE_MAXIMUM_COMPONENTS];
-        if (nearest)
-            find_nearest(own, lobe, units, shares);
-        else
-            find_shares(own, lobe, shares);
+        share_out(own, lobe, nearest, units, shares);
         for (int j = 0; j < COMPONENTS; ++j)
             add_share(sums[j], own[j].mean, lobe, lobe.mass * shares[j]);
     }

@@ -50,10 +50,7 @@ void add_lobe(inout level_sums sums, ivec2 texel, int i, float weight, bool near
               mixture_units units, component_density densities[MIXTURE_MAXIMUM_COMPONENTS]) {
     mixture_sample lobe = read_sample(texel, i, units);
     float shares[MIXTURE_MAXIMUM_COMPONENTS];
-    if (nearest)
-        find_nearest(densities, lobe, units, shares);
-    else
-        find_shares(densities, lobe, shares);
+    share_out(densities, lobe, nearest, units, shares);
     vec4 colour = vec4(0.0);
     if (BIN_COLOUR)
         colour = texelFetch(sample_map, ivec3(texel, LAYERS * i + 2), 0);

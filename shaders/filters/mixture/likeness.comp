@@ -54,7 +54,8 @@ component_sums halfway(component_sums a, component_sums b) {
     return sums;
 }
 
-// With the sharper of its base lobes: they show most where components are not.
+// Base lobes count by their mean sharpness, not their mean variance: a few sharp ones show most
+// where a blend puts them.
 struct component_bell {
     float mass;
     vec2 mean;
@@ -89,8 +90,9 @@ struct texel_sums {
     component_sums components[MIXTURE_MAXIMUM_COMPONENTS];
 };
 
-// By all errors together, which may have one sign; or by those of components in parts of their own,
-// by mass, because what is sharp would hide what is broad.
+// The errors of all components count together, since they may add up; and each counts by itself,
+// relative to its own component and weighted by mass, since a sharp component would hide the error
+// of a broad one.
 bool are_unlike(texel_sums one, texel_sums other) {
     float roots = 0.0, halves = 0.0, parts = 0.0, mass = 0.0;
     for (int j = 0; j < BINS; ++j) {

@@ -7,6 +7,7 @@
 
 #include "shading/filtered_maps.glsl"
 #include "interface/moment_bins.h"
+#include "lib/map/bilinear_texel.glsl"
 
 layout(constant_id = SPECIALISE_SINGLE_TEXELS) const uint SINGLE_TEXELS = SINGLE_TEXELS_NEVER;
 
@@ -22,17 +23,12 @@ struct texels_seen {
     uint count;          // for all probes
 };
 
-// The texel before which the four lie that a bilinear sampler blends.
-vec2 first_texel(map_area area, uint probe, vec2 size) {
-    return floor(probe_position(area, probe) * size - 0.5);
-}
-
 // See mixture_likeness_constants: of the largest over all probes.
 float unlikeness(map_area area, float level) {
     float most = 0.0;
     vec2 size = size_of_level(textureSize(moment_map, 0).xy, level);
     for (uint i = 0u; i < probes_of(area); ++i) {
-        vec2 position = (first_texel(area, i, size) + 0.5) / size;
+        vec2 position = (first_bilinear_texel(probe_position(area, i), size) + 0.5) / size;
         most = max(most, textureLod(likeness_map, vec3(position, 0.0), level).x);
     }
     return most;
@@ -78,11 +74,9 @@ map_area area_of_texel(map_area area, texels_seen seen, uint index, out float we
     if ((is_coarser ? seen.coarser : seen.finer) == 1u)
         return texel;
     vec2 size = size_of_level(textureSize(moment_map, 0).xy, level);
-    vec2 first = first_texel(area, probe, size);
-    vec2 part = texel.centre * size - 0.5 - first, corner = vec2(own & 1u, own >> 1u);
-    vec2 weights = mix(1.0 - part, part, corner);
-    weight *= weights.x * weights.y;
-    texel.centre = (first + corner + 0.5) / size;
+    bilinear_texel one = find_bilinear_texel(texel.centre, size, own);
+    weight *= one.weight;
+    texel.centre = one.position;
     return texel;
 }
 

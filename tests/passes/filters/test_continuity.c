@@ -128,7 +128,8 @@ static void a_view_that_zooms_past_the_finest_level(void **state) {
     no_jumps(*state, aside, 50, &path);
 }
 
-/// Nor where what is blended ends: blended, steps are up to 0.038, one by one 0.025.
+/// Nor at the edges of what is blended. Where everything is blended, steps are up to 0.038; where
+/// nothing is, 0.025.
 static void unlike_texels_do_not_jump(void **state) {
     fixture *f = *state;
     const view_path moves = {.pixels = 1.1, .footprint = 7.7, .most = 0.042};
