@@ -1,6 +1,7 @@
 #include "tests/engine/support/temporary_folder.h"
 
 #include <dirent.h>
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,17 @@ void temporary_folder_create(temporary_folder *folder) {
 
 const char *temporary_folder_file(temporary_folder *folder, const char *name) {
     snprintf(folder->file, sizeof folder->file, "%s/%s", folder->path, name);
+    return folder->file;
+}
+
+const char *temporary_folder_find(temporary_folder *folder, const char *ending) {
+    char pattern[sizeof folder->file];
+    snprintf(pattern, sizeof pattern, "%s/*%s", folder->path, ending);
+    glob_t found;
+    assert_int_equal(glob(pattern, 0, NULL, &found), 0);
+    assert_int_equal(found.gl_pathc, 1);
+    snprintf(folder->file, sizeof folder->file, "%s", found.gl_pathv[0]);
+    globfree(&found);
     return folder->file;
 }
 

@@ -6,13 +6,15 @@
 /// A folder for the files of a test.
 typedef struct temporary_folder {
     char path[128];
-    char file[512]; ///< the last path from temporary_folder_file
+    char file[512]; ///< the last path that was asked for
 } temporary_folder;
 
 /// Fails the test if the folder cannot be created.
 void temporary_folder_create(temporary_folder *folder);
 /// The path of a file in it; valid until the next call.
 const char *temporary_folder_file(temporary_folder *folder, const char *name);
+/// The same of the only file there whose name ends so; asserts that there is one.
+const char *temporary_folder_find(temporary_folder *folder, const char *ending);
 /// The number of files in it, including hidden ones.
 size_t temporary_folder_count(const temporary_folder *folder);
 /// Removes the files and the folder.

@@ -231,15 +231,9 @@ static void what_was_saved_is_drawn(void **state) {
 
 /// The path of a tile's file, counted from 1 on.
 static const char *tile_path(unsigned tile) {
-    static char path[256];
-    char command[256];
-    snprintf(command, sizeof command, "ls %s/*.relief-tile-%u-of-4", test_folder.path, tile);
-    FILE *list = popen(command, "r");
-    assert_non_null(list);
-    assert_non_null(fgets(path, sizeof path, list));
-    path[strcspn(path, "\n")] = '\0';
-    pclose(list);
-    return path;
+    char ending[64];
+    snprintf(ending, sizeof ending, ".relief-tile-%u-of-4", tile);
+    return temporary_folder_find(&test_folder, ending);
 }
 
 typedef struct tile_file {

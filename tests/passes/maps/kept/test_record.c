@@ -164,17 +164,8 @@ static void one_renderer_saves_and_another_loads(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// The only file in the folder.
 static const char *kept_file(void) {
-    static char path[256];
-    char command[256];
-    snprintf(command, sizeof command, "ls %s/*.mixture", test_folder.path);
-    FILE *list = popen(command, "r");
-    assert_non_null(list);
-    assert_non_null(fgets(path, sizeof path, list));
-    path[strcspn(path, "\n")] = '\0';
-    pclose(list);
-    return path;
+    return temporary_folder_find(&test_folder, ".mixture");
 }
 
 /// Shorter, longer, or with another byte: in the name, the version, the key, the layout, the sum,
