@@ -18,6 +18,7 @@ typedef struct fit_work {
     const char *cache;    ///< folder of maps that were fitted before; NULL: none
     bool saves;           ///< adds missing maps to the cache
     bool draws_nothing;   ///< maps are made to be saved
+    bool rebuilds;        ///< all maps are made again
     bool is_dry;          ///< nothing is executed: only pipelines are made
     bool reads_back;      ///< set where the frame reads back a map, to be saved
     uint32_t most_texels; ///< along a side of an image, on this device

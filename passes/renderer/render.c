@@ -78,6 +78,7 @@ static fit_work fits_of(const rendering *r) {
         .parts = fits->parts ? fits->parts : UINT32_MAX,
         .cache = fits->cache,
         .saves = fits->cache && may_save(r->parameters),
+        .rebuilds = r->parameters->rebuild,
         .most_texels = lobe_device_describe(r->renderer->device)->maximum_image_extent,
         .free_bytes = fits->cache ? free_bytes(r->renderer->device) : 0,
     };

@@ -19,9 +19,10 @@ layout(set = 0, binding = 3, std430) readonly buffer condition_block { uint cond
 layout(set = 0, binding = 4, std430) readonly buffer made_with_block { uint made_with[]; };
 
 shared uint appended;
+shared uint content; // of a tile that is made now
 
-// That of a tile that is made now, above 0: FNV-1a (Fowler, Noll, Vo).
-uint content_now() {
+// Above 0: FNV-1a (Fowler, Noll, Vo).
+uint digest_of_content() {
     uint number = map.content;
     for (uint i = 0u; i < map.made_with; ++i)
         number = (number ^ made_with[i]) * 16777619u;
@@ -61,7 +62,9 @@ void write_record(int level, uint first) {
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, all = 0u, content = content_now();
+    uint local = gl_LocalInvocationIndex, all = 0u;
+    if (local == 0u)
+        content = digest_of_content();
     bool wanted = map.conditional == 0u || condition[0] != 0u;
     for (int level = 0; level < int(map.levels); ++level)
         all += tile_count(level);

@@ -143,19 +143,17 @@ static kept_tile tile(const filter_context *context, uint32_t index, const void 
     return tile;
 }
 
-lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t index,
-                                         const transfer_kind *kind, void **slot) {
+static kept_subject subject_of(const filter_context *context, uint32_t index,
+                               const transfer_kind *kind) {
     const device_material *material = &context->scene->materials[index];
     const fit_work *work = context->work;
-    if (!work || work->is_dry || !passes_has_relief(material))
-        return LOBE_OK;
     const bool shares = makes_share_of_facets(context, index, kind);
     const uint32_t count = shares ? range_of_share(context, index, work->share).count > 0
                                   : choose_tiles(context, index, kind).count;
     const bool alone = shares || makes_tiles_alone(context, index, kind);
     const uint64_t share_digest =
         passes_digest(kind_digest(kind), (uint64_t)work->share << 32 | work->shares);
-    const kept_subject subject = {
+    return (kept_subject){
         .kind = passes_digest(share_digest, alone), // frames that draw load what was saved
         .inputs = inputs_digest(material, kind),
         .has_texels = has_texels(context, material, kind),
@@ -168,7 +166,15 @@ lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t
         .key = key,
         .user = kind,
     };
-    return count > 0 ? passes_kept_prepare(context, index, &subject, slot) : LOBE_OK;
+}
+
+lobe_result passes_kept_transfer_prepare(const filter_context *context, uint32_t index,
+                                         const transfer_kind *kind, void **slot) {
+    const fit_work *work = context->work;
+    if (!work || work->is_dry || !passes_has_relief(&context->scene->materials[index]))
+        return LOBE_OK;
+    const kept_subject subject = subject_of(context, index, kind);
+    return subject.tile_count > 0 ? passes_kept_prepare(context, index, &subject, slot) : LOBE_OK;
 }
 
 /// What the facets of the frame's share see is all that is made.
@@ -228,17 +234,32 @@ static bool is_stored(const filter_context *context, uint32_t index, const trans
     return stored;
 }
 
-static transfer_map make(transfer_request *request) {
+static void make(transfer_request *request, transfer_map *map) {
     const filter_context *context = request->context;
     const stored_content *joined = passes_kept_joined(context, request->record);
-    if (!joined)
-        return passes_transfer_map(request);
+    if (!joined) {
+        passes_transfer_map(request, map);
+        return;
+    }
     const seen_facets seen = {.words = lobe_graph_import_buffer(context->graph, joined->buffers[0]),
                               .links = lobe_graph_import_buffer(context->graph, joined->buffers[1]),
                               .basis =
                                   lobe_graph_import_buffer(context->graph, joined->buffers[2])};
     request->seen = &seen;
-    return passes_transfer_map(request);
+    passes_transfer_map(request, map);
+}
+
+/// Whether an earlier frame has put all that was stored into the map, and that is still there. If
+/// it is lost, it is loaded again.
+static bool is_placed(const filter_context *context, uint32_t index, const transfer_kind *kind,
+                      const void *prepared, const transfer_map *map) {
+    if (!passes_kept_is_placed(context, prepared))
+        return false;
+    if (!context->work->rebuilds && passes_transfer_has_content(context->graph, kind, map))
+        return true;
+    const kept_subject subject = subject_of(context, index, kind);
+    passes_kept_reload(context, index, &subject, prepared);
+    return false;
 }
 
 bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
@@ -249,11 +270,18 @@ bool passes_kept_transfer_build(const filter_context *context, uint32_t index,
     transfer_request request = {
         .context = context, .material = index, .kind = kind, .record = prepared};
     request.parts = passes_kept_parts(context, prepared, &request.in_parts);
-    const bool stored = is_stored(context, index, kind, prepared);
+    *transfer = passes_transfer_declare(context, index, kind);
+    const bool placed = is_placed(context, index, kind, prepared, transfer),
+               stored = placed || is_stored(context, index, kind, prepared);
     if (near || !stored) {
         *relief = passes_relief(context, index, near || request.in_parts);
         request.relief = stored ? NULL : relief;
     }
-    *transfer = make(&request);
-    return passes_kept_is_whole(context, prepared);
+    if (placed)
+        return true;
+    make(&request, transfer);
+    const bool whole = passes_kept_is_whole(context, prepared);
+    if (whole)
+        passes_kept_place(context, prepared);
+    return whole;
 }

@@ -208,9 +208,8 @@ static bool add_windows(transfer_build *build, transfer_map *map) {
     return true;
 }
 
-static lobe_resource add_closure(const transfer_build *build, const reduced_map *map) {
-    char name[64];
-    snprintf(name, sizeof name, "closure of material %u", build->request->material);
+static void add_closure(const transfer_build *build, transfer_map *transfer) {
+    const reduced_map *map = &transfer->map;
     lobe_pass *pass = lobe_graph_add_pass(build->graph, LOBE_PASS_COMPUTE, "transfer_closure");
     lobe_pass_read(pass, &(lobe_binding){.name = "transfer_map",
                                          .resource = map->resource,
@@ -218,52 +217,54 @@ static lobe_resource add_closure(const transfer_build *build, const reduced_map 
     lobe_pass_read(
         pass, &(lobe_binding){.name = "height_extent_block", .resource = build->relief.extent});
     lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->seen.basis});
-    const lobe_resource closure = lobe_pass_write(
-        pass,
-        &(lobe_binding){.name = "closure_block",
-                        .resource = lobe_graph_buffer(
-                            build->graph, &(lobe_buffer_description){
-                                              .name = name,
-                                              .size = sizeof(struct transfer_closure_constants),
-                                              .retained = true})});
+    transfer->closure = lobe_pass_write(
+        pass, &(lobe_binding){.name = "closure_block", .resource = transfer->closure});
     const kind_specialisation kind = passes_transfer_specialisation(build->request->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/transfer_closure.comp",
                                               .specialisation = kind.items,
                                               .specialisation_count = 2});
-    return closure;
 }
 
-static transfer_map declare(const transfer_request *request) {
-    const device_map *heights =
-        &request->context->scene->materials[request->material].maps[MAP_HEIGHT];
-    const transfer_kind *kind = request->kind;
-    lobe_graph *graph = request->context->graph;
+transfer_map passes_transfer_declare(const filter_context *context, uint32_t index,
+                                     const transfer_kind *kind) {
+    const device_map *heights = &context->scene->materials[index].maps[MAP_HEIGHT];
+    lobe_graph *graph = context->graph;
     char name[64];
-    snprintf(name, sizeof name, "transfer of material %u", request->material);
+    snprintf(name, sizeof name, "transfer of material %u", index);
     transfer_map map = {.map = passes_reduced_map_declare(graph, name, kind->format, heights->width,
                                                           heights->height,
                                                           passes_transfer_layers(kind), true)};
+    snprintf(name, sizeof name, "closure of material %u", index);
+    map.closure = lobe_graph_buffer(
+        graph, &(lobe_buffer_description){.name = name,
+                                          .size = sizeof(struct transfer_closure_constants),
+                                          .retained = true});
     if (!kind->normals)
         return map;
-    snprintf(name, sizeof name, "normals of facets of material %u", request->material);
+    snprintf(name, sizeof name, "normals of facets of material %u", index);
     map.facets = passes_reduced_map_declare(graph, name, kind->format, heights->width,
                                             heights->height, passes_facet_layers(), true);
     return map;
 }
 
-transfer_map passes_transfer_map(const transfer_request *request) {
+bool passes_transfer_has_content(const lobe_graph *graph, const transfer_kind *kind,
+                                 const transfer_map *map) {
+    return lobe_graph_has_content(graph, map->map.resource) &&
+           lobe_graph_has_content(graph, map->closure) &&
+           (!kind->normals || lobe_graph_has_content(graph, map->facets.resource));
+}
+
+void passes_transfer_map(const transfer_request *request, transfer_map *map) {
     transfer_build build;
     begin(request, &build);
     take_stored(&build);
     begin_facets(&build);
-    transfer_map map = declare(request);
-    if (!add_windows(&build, &map))
-        return map;
-    passes_level_reduction(build.graph, &map.map);
+    if (!add_windows(&build, map))
+        return;
+    passes_level_reduction(build.graph, &map->map);
     if (request->kind->normals)
-        passes_level_reduction(build.graph, &map.facets);
-    map.closure = add_closure(&build, &map.map);
-    return map;
+        passes_level_reduction(build.graph, &map->facets);
+    add_closure(&build, map);
 }
 
 // ---------------------------------------------------------------------------------------------

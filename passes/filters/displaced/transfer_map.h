@@ -44,12 +44,19 @@ typedef struct transfer_request {
     bool in_parts;  ///< what later parts need is kept between frames, see passes_facets
 } transfer_request;
 
+/// Declares a map, with what earlier frames have left in it.
+transfer_map passes_transfer_declare(const filter_context *context, uint32_t material,
+                                     const transfer_kind *kind);
+/// Whether all of it can be read before this frame writes it.
+bool passes_transfer_has_content(const lobe_graph *graph, const transfer_kind *kind,
+                                 const transfer_map *map);
+
 /// Adds the passes that make it for a material with a relief: those of passes_facets,
 /// passes_cells_add, level_reduction and transfer_closure. They run when the height map or its
 /// scale changes; when colours do only if the kind is coloured, and then without facet_transfer and
 /// facet_links of a relief that is made in one window. Without the last part, the map has no
 /// content.
-transfer_map passes_transfer_map(const transfer_request *request);
+void passes_transfer_map(const transfer_request *request, transfer_map *map);
 
 /// Adds the passes that make tiles one after the other, as far as parts go, without the map: those
 /// of the windows from `first` on, each `step`-th, which are to be saved.

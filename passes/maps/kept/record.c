@@ -12,6 +12,8 @@ typedef struct tile_record {
     bool settled; ///< found, saved, or not to be saved
     bool saved;   ///< or there, but not loaded
     bool waits;   ///< what a frame reads back of it has not been taken yet
+    bool places;  ///< a frame puts what is stored into the map
+    bool placed;  ///< it has done so, and nothing is stored any more
     lobe_resource images[KEPT_MAXIMUM_IMAGES];
     lobe_resource buffers[KEPT_MAXIMUM_BUFFERS];
 } tile_record;
@@ -61,7 +63,7 @@ static lobe_result begin(const filter_context *context, uint32_t index, const ke
 static lobe_result update(const filter_context *context, uint32_t index,
                           const kept_subject *subject, kept_record *record) {
     for (uint32_t i = 0; i < record->tile_count; i++)
-        record->tiles[i].waits = false;
+        record->tiles[i].waits = record->tiles[i].places = false;
     return record->tiles && record->kind == subject->kind && record->inputs == subject->inputs
                ? LOBE_OK
                : begin(context, index, subject, record);
@@ -110,10 +112,11 @@ typedef struct tile_search {
     const filter_context *context;
     uint32_t material;
     const kept_subject *subject;
-    kept_record *record;
+    const kept_record *record;
     kept_content first; ///< that was found
     uint64_t room;      ///< of device memory, for tiles
     uint32_t left;      ///< tiles that were found, but not loaded
+    bool again;         ///< for maps that were lost: what is settled remains so
 } tile_search;
 
 /// True: the caller frees the content.
@@ -174,7 +177,8 @@ static lobe_result take(tile_search *search, tile_record *tile, kept_content *co
     if (!search->subject->makes_files_alone)
         result = passes_stored_content_create(search->context->graph, &tile->tile.layout, content,
                                               &tile->stored);
-    tile->found = tile->settled = result == LOBE_OK;
+    if (!search->again)
+        tile->found = tile->settled = result == LOBE_OK;
     if (result != LOBE_OK)
         passes_stored_content_free(&tile->stored);
     if (result == LOBE_OK && !search->first.file)
@@ -197,7 +201,7 @@ static void tell_of_memory(const tile_search *search) {
 /// Whether any was found.
 static lobe_result find_all(tile_search *search, bool *found) {
     lobe_result result = LOBE_OK;
-    kept_record *record = search->record;
+    const kept_record *record = search->record;
     kept_content content;
     *found = false;
     search->room = find_room(search);
@@ -209,7 +213,8 @@ static lobe_result find_all(tile_search *search, bool *found) {
             result = take(search, &record->tiles[i], &content);
         } else {
             passes_kept_content_free(&content);
-            record->tiles[i].settled = record->tiles[i].saved = true;
+            if (!search->again)
+                record->tiles[i].settled = record->tiles[i].saved = true;
             search->left++;
         }
     }
@@ -322,6 +327,41 @@ const stored_content *passes_kept_stored(const filter_context *context, const ke
                : NULL;
 }
 
+/// What a rebuilding frame has placed will be needed in the next one.
+void passes_kept_place(const filter_context *context, const kept_record *record) {
+    fit_work *work = context->work;
+    if (!record || work->is_dry || !work->saves || work->rebuilds)
+        return;
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        if (record->tiles[i].stored.buffers[0])
+            record->tiles[i].places = work->reads_back = true;
+}
+
+bool passes_kept_is_placed(const filter_context *context, const kept_record *record) {
+    bool placed = false;
+    for (uint32_t i = 0; record && !context->work->is_dry && i < record->tile_count; i++)
+        placed = placed || record->tiles[i].placed;
+    return placed;
+}
+
+/// What is no longer in the folder is made again at once, and not saved.
+void passes_kept_reload(const filter_context *context, uint32_t material,
+                        const kept_subject *subject, const kept_record *record) {
+    tile_search search = {.context = context,
+                          .material = material,
+                          .subject = subject,
+                          .record = record,
+                          .again = true};
+    bool found;
+    for (uint32_t i = 0; i < record->tile_count; i++)
+        record->tiles[i].placed = false;
+    const lobe_result result = context->work->cache ? find_all(&search, &found) : LOBE_OK;
+    if (result != LOBE_OK)
+        lobe_graph_fail(context->graph, result, "filter '%s', material '%s': %s",
+                        context->filter->name, context->scene->scene->materials[material].name,
+                        lobe_result_message(result));
+}
+
 bool passes_kept_is_settled(const kept_record *record, uint32_t tile) {
     return record->tiles[tile].settled;
 }
@@ -386,9 +426,33 @@ static void give_up(kept_record *record) {
         record->tiles[i].settled = true;
 }
 
+/// Whether the frame had a use for what it placed: maps of a frame that draws nothing are declared
+/// only.
+static bool has_placed(const lobe_graph *graph) {
+    const lobe_graph_report *report = lobe_graph_describe(graph);
+    bool placed = true;
+    for (size_t i = 0; i < report->pass_count; i++)
+        placed = placed && (report->passes[i].state != LOBE_PASS_CULLED ||
+                            strcmp(report->passes[i].name, PASSES_RESTORING) != 0);
+    return placed;
+}
+
+static void free_placed(kept_record *record, const lobe_graph *graph) {
+    const bool placed = has_placed(graph);
+    for (uint32_t i = 0; i < record->tile_count; i++) {
+        tile_record *tile = &record->tiles[i];
+        if (tile->places && placed) {
+            passes_stored_content_free(&tile->stored);
+            tile->placed = true;
+        }
+        tile->places = false;
+    }
+}
+
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host) {
     kept_record *record = slot;
+    free_placed(record, graph);
     for (uint32_t i = 0; i < record->tile_count; i++) {
         tile_record *tile = &record->tiles[i];
         const void *images[KEPT_MAXIMUM_IMAGES] = {0}, *buffers[KEPT_MAXIMUM_BUFFERS] = {0};

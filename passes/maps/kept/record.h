@@ -18,7 +18,7 @@ lobe_result passes_kept_prepare(const filter_context *context, uint32_t material
                                 const kept_subject *subject, void **slot);
 /// For lobe_filter.forget.
 void passes_kept_forget(void *slot);
-/// For lobe_filter.save.
+/// For lobe_filter.save: saves what the frame read back, and frees what it has placed.
 void passes_kept_save(void *slot, const lobe_graph *graph, const char *folder,
                       const lobe_host *host);
 
@@ -29,6 +29,15 @@ uint32_t passes_kept_parts(const filter_context *context, const kept_record *rec
 /// What a folder had of a tile of the maps; NULL: nothing, so it is to be made.
 const stored_content *passes_kept_stored(const filter_context *context, const kept_record *record,
                                          uint32_t tile);
+/// Says that this frame declares all passes that put what is stored into maps that are retained.
+/// Once they have run, passes_kept_save frees what was stored.
+void passes_kept_place(const filter_context *context, const kept_record *record);
+/// Whether that has happened, so that nothing is stored any more.
+bool passes_kept_is_placed(const filter_context *context, const kept_record *record);
+/// Loads it again: the maps were lost. The subject is that of passes_kept_prepare. Fails the frame
+/// on an error.
+void passes_kept_reload(const filter_context *context, uint32_t material,
+                        const kept_subject *subject, const kept_record *record);
 /// Whether nothing is left to do for a tile's file: it is there, or could not be saved.
 bool passes_kept_is_settled(const kept_record *record, uint32_t tile);
 /// The parts that a tile takes: 0 if the folder had it.

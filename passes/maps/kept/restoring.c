@@ -37,7 +37,7 @@ void passes_restoring(lobe_graph *graph, const stored_content *stored, uint32_t 
     restoring_constants constants = {tile->extent.width, tile->extent.height, tile->column,
                                      tile->row, 0};
     for (uint32_t level = 0; level < tile->extent.levels; level++) {
-        lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "map_restoring");
+        lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, PASSES_RESTORING);
         lobe_pass_read(pass, &(lobe_binding){.name = "stored_map", .resource = rows});
         passes_reduced_map_write(target, pass, "target_map", level);
         lobe_pass_dispatch(

@@ -23,6 +23,8 @@ typedef struct map_tile {
     uint32_t column, row; ///< of its first texel in level 0 of the map; 0 if it has more levels
 } map_tile;
 
+/// The name of these passes.
+#define PASSES_RESTORING "map_restoring"
 /// Adds the passes that copy all levels of an image that was stored into a map that was declared.
 void passes_restoring(lobe_graph *graph, const stored_content *stored, uint32_t image,
                       const map_tile *tile, reduced_map *target);

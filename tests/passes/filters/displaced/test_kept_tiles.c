@@ -26,6 +26,7 @@ typedef struct process {
     uint64_t free_bytes;
     transfer_map map;
     size_t transfers; ///< windows whose facets were looked at
+    size_t restored;  ///< images of tiles that were put into the map
 } process;
 
 static void start(fixture *f, bool coloured, process *process) {
@@ -64,6 +65,7 @@ static size_t count_run(const process *process, const char *pass) {
 static void save(process *process) {
     lobe_graph *graph = process->windows.run.context.graph;
     process->transfers += count_run(process, "facet_transfer");
+    process->restored += count_run(process, "map_restoring");
     if (process->slot)
         passes_kept_save(process->slot, graph, process->work.cache, &process->recorder.host);
     lobe_graph_begin(graph);
@@ -97,6 +99,7 @@ static float *draw(process *process, const char *folder) {
     fit_work work = work_of(UINT32_MAX, 0, 0);
     work.cache = folder;
     assert_true(declare(process, work));
+    lobe_graph_output(process->windows.run.context.graph, process->map.closure);
     float *numbers = relief_windows_read(&process->windows, &process->map);
     save(process);
     return numbers;
@@ -279,11 +282,14 @@ static void bad_tiles_are_replaced(void **state) {
     free(expected);
 }
 
+static kept_layout tile_layout(const process *process, unsigned tile) {
+    const device_material *material = &process->windows.run.context.scene->materials[0];
+    return passes_transfer_tile(material, &process->windows.kind, tile - 1).layout;
+}
+
 /// Puts other functions of directions into a tile's file.
 static void forge(process *process, unsigned tile) {
-    const device_material *material = &process->windows.run.context.scene->materials[0];
-    const kept_layout layout =
-        passes_transfer_tile(material, &process->windows.kind, tile - 1).layout;
+    const kept_layout layout = tile_layout(process, tile);
     const uint64_t key = strtoull(strrchr(tile_path(tile), '/') + 1, NULL, 16);
     kept_content content;
     assert_true(passes_kept_file_load(test_folder.path, key, &layout, NULL, &content));
@@ -351,6 +357,59 @@ static void tiles_are_loaded_beside_the_map(void **state) {
     free(expected);
 }
 
+static uint64_t used_bytes(const fixture *f) {
+    lobe_device_memory memory;
+    lobe_device_memory_query(f->device, &memory);
+    return memory.used_bytes;
+}
+
+/// A frame that declares nothing of the relief, whose map is then lost.
+static void draw_something_else(process *process) {
+    pass_run_execute(&process->windows.run);
+    save(process);
+}
+
+static void check_again(process *process, const char *folder, const float *expected,
+                        size_t restored) {
+    check_numbers(process, draw(process, folder), expected);
+    assert_int_equal(process->restored, restored);
+    assert_int_equal(process->work.outcome.unsaved, 0);
+    process->restored = 0;
+}
+
+/// What was loaded takes no memory once it is part of the map, and is loaded again if that is lost.
+static void tiles_are_freed_when_they_are_placed(void **state) {
+    float *expected = draw_whole(*state, false);
+    process process;
+    start(*state, false, &process);
+    fit(&process, work_of(1, 1, 1), TILES * TILE_PARTS);
+    stop(&process);
+    start(*state, false, &process);
+    fit_work work = work_of(UINT32_MAX, 0, 0);
+    assert_true(declare(&process, work)); // but not drawn, so that nothing is placed
+    pass_run_execute(&process.windows.run);
+    assert_int_equal(count_run(&process, NULL), 0);
+    save(&process);
+    const uint64_t loaded = used_bytes(*state);
+    check_again(&process, test_folder.path, expected, 2 * TILES);
+    const lobe_graph_report *report = lobe_graph_describe(process.windows.run.context.graph);
+    const kept_layout layout = tile_layout(&process, 1);
+    const uint64_t tile_bytes = passes_kept_bytes(&layout);
+    assert_true(used_bytes(*state) + TILES * tile_bytes <= loaded + report->retained_bytes);
+    check_again(&process, test_folder.path, expected, 0);
+    draw_something_else(&process);
+    check_again(&process, test_folder.path, expected, 2 * TILES);
+    draw_something_else(&process);
+    assert_int_equal(remove(tile_path(2)), 0);
+    check_again(&process, test_folder.path, expected, 2 * (TILES - 1));
+    assert_int_equal(process.transfers, 1);
+    draw_something_else(&process);
+    check_again(&process, NULL, expected, 0);
+    assert_int_equal(process.transfers, 1 + TILES);
+    stop(&process);
+    free(expected);
+}
+
 /// One warning, and the map is drawn all the same.
 static void tiles_that_cannot_be_saved_are_warned_of_once(void **state) {
     float *expected = draw_whole(*state, false);
@@ -403,6 +462,7 @@ int main(void) {
         IN_TEST_FOLDER(bad_tiles_are_replaced),
         IN_TEST_FOLDER(tiles_of_another_device_are_replaced),
         IN_TEST_FOLDER(tiles_are_loaded_beside_the_map),
+        IN_TEST_FOLDER(tiles_are_freed_when_they_are_placed),
         IN_TEST_FOLDER(tiles_that_cannot_be_saved_are_warned_of_once),
         IN_TEST_FOLDER(a_lack_of_memory_is_survived),
     };

@@ -44,11 +44,14 @@ enum { WINDOWS = 16, FEW = WINDOWS_FACETS(22) };
 
 static transfer_map declare(const relief_windows *run, uint32_t parts, bool in_parts) {
     const relief relief = passes_relief(&run->run.context, 0, in_parts);
-    return passes_transfer_map(&(transfer_request){.context = &run->run.context,
-                                                   .kind = &run->kind,
-                                                   .relief = &relief,
-                                                   .parts = parts,
-                                                   .in_parts = in_parts});
+    transfer_map map = passes_transfer_declare(&run->run.context, 0, &run->kind);
+    passes_transfer_map(&(transfer_request){.context = &run->run.context,
+                                            .kind = &run->kind,
+                                            .relief = &relief,
+                                            .parts = parts,
+                                            .in_parts = in_parts},
+                        &map);
+    return map;
 }
 
 /// The work of all windows.
