@@ -69,14 +69,17 @@ void passes_bin_appearance_bind(const filter_context *context, uint32_t material
     passes_appearance_bind(appearance, "binning_block", bins, (lobe_sampler){0});
 }
 
-void passes_bin_likeness_bind(const filter_context *context, uint32_t material,
-                              const moment_map *moments, filtered_appearance *appearance) {
+void passes_bin_texels_bind(const filter_context *context, uint32_t material,
+                            const moment_map *moments, filtered_appearance *appearance) {
     const device_material *uploaded = &context->scene->materials[material];
-    const lobe_grid grid = passes_lobe_grid(uploaded);
-    const lobe_resource other =
+    lobe_sampler sampler =
+        passes_filtered_map_sampler(context, uploaded, passes_lobe_grid(uploaded).map);
+    sampler.texels = sampler.levels = LOBE_SAMPLE_NEAREST;
+    const lobe_resource texels =
         moments ? moments->map.resource
                 : lobe_graph_import_texture(context->graph, context->scene->white);
+    passes_appearance_bind(appearance, "moment_texels", texels, sampler);
     passes_appearance_bind(appearance, "likeness_map",
-                           moments && moments->likeness.version ? moments->likeness : other,
-                           passes_filtered_map_sampler(context, uploaded, grid.map));
+                           moments && moments->likeness.version ? moments->likeness : texels,
+                           sampler);
 }

@@ -38,9 +38,10 @@ bool passes_bin_widths_vary(const device_material *material);
 /// Binds the map and the colour maps to the shading. `moments`: NULL if lobes do not vary.
 void passes_bin_appearance_bind(const filter_context *context, uint32_t material,
                                 const moment_map *moments, filtered_appearance *appearance);
-/// For the shading of moments.glsl: binds `likeness`, or what stands for it where the shader is not
-/// specialised to read it. `moments`: as above.
-void passes_bin_likeness_bind(const filter_context *context, uint32_t material,
-                              const moment_map *moments, filtered_appearance *appearance);
+/// For the shading of moments.glsl: binds the map once more, to be read texel by texel, and
+/// `likeness`, or what stands for it where the shader is not specialised to read it. `moments`: as
+/// above.
+void passes_bin_texels_bind(const filter_context *context, uint32_t material,
+                            const moment_map *moments, filtered_appearance *appearance);
 
 #endif

@@ -160,12 +160,13 @@ void add_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place, surfa
         add_bin_to_light(sum, bin, halfway, place);
 }
 
-// The bins of one texel, or of the blend of several: of what `area` fetches, which has this weight.
+// The bins of one texel, or of the blend of several: of what `texels` fetches, which has this
+// weight.
 void gather_bins(inout appearance fetched, inout bin_means means, surface_point surface,
-                 map_area area, float weight, vec3 incoming[4], vec3 halfway[4],
+                 texel_area texels, float weight, vec3 incoming[4], vec3 halfway[4],
                  vec2 places[4]) {
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, area, weight * fetched.mass_scale, i);
+        plane_bin bin = read_bin(surface, texels, weight * fetched.mass_scale, i);
         // A footprint's lobes together have a mass of at least one.
         if (bin.mass <= weight * filter_knobs.least_share)
             continue;
@@ -198,9 +199,9 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     texels_seen seen = find_texels(fetched.area);
     for (uint i = 0u; i < seen.count; ++i) {
         float weight;
-        map_area area = area_of_texel(fetched.area, seen, i, weight);
+        texel_area texels = area_of_texel(fetched.area, seen, i, weight);
         if (weight > 0.0)
-            gather_bins(fetched, means, surface, area, weight, incoming, halfway, places);
+            gather_bins(fetched, means, surface, texels, weight, incoming, halfway, places);
     }
     take_means(fetched, surface, means);
 }
@@ -378,10 +379,10 @@ vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin
 
 // As gather_bins.
 vec3 reflect_texel(inout appearance fetched, inout bin_means means, surface_point surface,
-                   map_area area, float weight) {
+                   texel_area texels, float weight) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < BINS; ++i) {
-        plane_bin bin = read_bin(surface, area, weight * fetched.mass_scale, i);
+        plane_bin bin = read_bin(surface, texels, weight * fetched.mass_scale, i);
         if (bin.mass <= weight * filter_knobs.least_share)
             continue;
         add_to_means(means, bin, surface.outgoing);
@@ -404,9 +405,9 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     texels_seen seen = find_texels(fetched.area);
     for (uint i = 0u; i < seen.count; ++i) {
         float weight;
-        map_area area = area_of_texel(fetched.area, seen, i, weight);
+        texel_area texels = area_of_texel(fetched.area, seen, i, weight);
         if (weight > 0.0)
-            sum += reflect_texel(fetched, means, surface, area, weight);
+            sum += reflect_texel(fetched, means, surface, texels, weight);
     }
     take_means(fetched, surface, means);
     return (1.0 - fetched.base_share) * sum;

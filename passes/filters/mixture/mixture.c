@@ -131,7 +131,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
         find_single_texels(context, material, &kind, &mixture, appearance);
     }
     passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
-    passes_bin_likeness_bind(context, material, has ? &mixture : NULL, appearance);
+    passes_bin_texels_bind(context, material, has ? &mixture : NULL, appearance);
 }
 
 const lobe_filter passes_filter_mixture = {

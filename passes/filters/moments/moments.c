@@ -269,7 +269,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     if (prepared)
         moments = build_moments(context, material, prepared, appearance);
     passes_bin_appearance_bind(context, material, prepared ? &moments : NULL, appearance);
-    passes_bin_likeness_bind(context, material, prepared ? &moments : NULL, appearance);
+    passes_bin_texels_bind(context, material, prepared ? &moments : NULL, appearance);
 }
 
 const lobe_filter passes_filter_moments = {

@@ -36,10 +36,10 @@ vec4 read_last_layer(map_area area) {
 }
 
 // `mass_scale`: as read_last_layer gives it.
-plane_bin read_bin(surface_point surface, map_area area, float mass_scale, uint index) {
+plane_bin read_bin(surface_point surface, texel_area texels, float mass_scale, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
-    vec4 place = filtered_layer(moment_map, area, layers * index);
-    vec4 spread = filtered_layer(moment_map, area, layers * index + 1u);
+    vec4 place = moment_layer(texels, layers * index);
+    vec4 spread = moment_layer(texels, layers * index + 1u);
     float scale = 1.0 / max(place.x, 1e-6);
     vec4 range = binning.bins[index].range;
     plane_bin bin;
@@ -60,7 +60,7 @@ plane_bin read_bin(surface_point surface, map_area area, float mass_scale, uint 
     keep_shape(bin, varies);
     if (BIN_COLOUR) {
         vec4 colour = vec4(vec3(scale * colour_unit()), scale) *
-                      filtered_layer(moment_map, area, layers * index + 2u);
+                      moment_layer(texels, layers * index + 2u);
         bin.colour = colour_of_bin(surface, colour);
         bin.dielectric = colour.a;
     }

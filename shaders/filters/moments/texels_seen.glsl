@@ -12,7 +12,15 @@
 layout(constant_id = SPECIALISE_SINGLE_TEXELS) const uint SINGLE_TEXELS = SINGLE_TEXELS_NEVER;
 
 layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
+// Samplers of these two return single texels.
 layout(LOBE_DESCRIPTOR(52)) uniform sampler2DArray likeness_map;
+layout(LOBE_DESCRIPTOR(53)) uniform sampler2DArray moment_texels; // moment_map again
+
+// What is fetched at once.
+struct texel_area {
+    map_area area;
+    bool single; // one texel, which `area` is the centre of
+};
 
 // What is evaluated for a probe: the blend of all of a trilinear sampler's texels, or for each of
 // two levels the blend of four texels or each of these.
@@ -55,11 +63,11 @@ texels_seen find_texels(map_area area) {
     return seen;
 }
 
-// The area that fetches number `index` of these alone; `weight`: its part of the pixel.
-map_area area_of_texel(map_area area, texels_seen seen, uint index, out float weight) {
+// What fetches number `index` of these alone; `weight`: its part of the pixel.
+texel_area area_of_texel(map_area area, texels_seen seen, uint index, out float weight) {
     weight = 1.0;
     if (SINGLE_TEXELS == SINGLE_TEXELS_NEVER || seen.blended)
-        return area;
+        return texel_area(area, false);
     uint of_probe = seen.finer + seen.coarser, probe = index / of_probe, own = index % of_probe;
     bool is_coarser = own >= seen.finer;
     if (is_coarser)
@@ -72,12 +80,18 @@ map_area area_of_texel(map_area area, texels_seen seen, uint index, out float we
     texel.centre = probe_position(area, probe);
     texel.probes = 1u;
     if ((is_coarser ? seen.coarser : seen.finer) == 1u)
-        return texel;
+        return texel_area(texel, false);
     vec2 size = size_of_level(textureSize(moment_map, 0).xy, level);
     bilinear_texel one = find_bilinear_texel(texel.centre, size, own);
     weight *= one.weight;
     texel.centre = one.position;
-    return texel;
+    return texel_area(texel, true);
+}
+
+vec4 moment_layer(texel_area texels, uint layer) {
+    if (SINGLE_TEXELS != SINGLE_TEXELS_NEVER && texels.single)
+        return textureLod(moment_texels, vec3(texels.area.centre, layer), texels.area.level - 1.0);
+    return filtered_layer(moment_map, texels.area, layer);
 }
 
 #endif
