@@ -10,18 +10,25 @@ typedef enum bin_colour {
     BIN_COLOUR_OWN,
 } bin_colour;
 
+typedef struct bin_request {
+    /// Components [1, MOMENT_MAXIMUM_BINS]; 0: as many as are worth their time.
+    uint32_t bins;
+    bin_colour colour;
+    /// The part [0, 1) of the squared error that each further fetch of a pixel has to take away to
+    /// be worth its time.
+    double gain;
+} bin_request;
+
 typedef struct bin_choice {
     plane_mixture mixture;
     bool own_colours;
 } bin_choice;
 
-/// Fits the mixture that serves some footprints on a material's maps best: patches, and all maps
-/// from afar. `bins`: its number of components [1, MOMENT_MAXIMUM_BINS]; 0: as many as serve about
-/// as well as the best, for the least memory of bins and colours. If the survey has no samples, the
-/// components are all zero, and their number and points are those that serve most maps. False: out
-/// of memory.
+/// Fits the mixture that serves some footprints on a material's maps best: squares of several
+/// widths, and all maps from afar. If the survey has no samples, the components are all zero, and
+/// their number and points are those that serve most maps. False: out of memory.
 bool passes_bins_choose(const device_scene *scene, const device_material *material,
-                        const lobe_survey *survey, uint32_t bins, bin_colour colour,
+                        const lobe_survey *survey, const bin_request *request,
                         const lobe_allocator *allocator, bin_choice *choice);
 
 #endif

@@ -34,11 +34,22 @@ static const filter_knob partition_knob = {
 static const filter_knob bins_knob = {
     .description =
         {.name = "bins",
-         .summary = "how many bins are fitted; auto: as few as serve the material's maps as well",
+         .summary = "how many bins are fitted; auto: as many as are worth their time, see bin_gain",
          .kind = LOBE_KNOB_CHOICE,
          .maximum = 6,
          .choices = bin_numbers,
          .sweep = "1,2,3,4"},
+    .decides_slots = true,
+};
+static const filter_knob bin_gain_knob = {
+    .description = {.name = "bin_gain",
+                    .summary =
+                        "part of the squared error that each fetch of more bins, or of their "
+                        "own colours, has to take away to be worth its time; 0: the least "
+                        "error at any cost",
+                    .maximum = 0.9,
+                    .initial = 0.115,
+                    .sweep = "0,0.05,0.4"},
     .decides_slots = true,
 };
 static const filter_knob colour_knob = {
@@ -73,6 +84,7 @@ static const filter_knob frames_of_fit_knob = {
 static const filter_knob *const knobs[] = {
     &partition_knob,
     &bins_knob,
+    &bin_gain_knob,
     &colour_knob,
     &refit_knob,
     &frames_of_fit_knob,
@@ -148,8 +160,9 @@ static void measure_colours(const lobe_scene *scene, const device_material *mate
 static lobe_result prepare_partition(const filter_context *context, uint32_t index, void **slot) {
     const partition_request request = {
         .kind = passes_knob_choice(context, &partition_knob),
-        .bins = passes_knob_choice(context, &bins_knob),
-        .colour = colour_of_bins(context, &context->scene->materials[index])};
+        .bins = {.bins = passes_knob_choice(context, &bins_knob),
+                 .colour = colour_of_bins(context, &context->scene->materials[index]),
+                 .gain = passes_knob_value(context, &bin_gain_knob)}};
     prepared_moments *prepared =
         lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)

@@ -145,8 +145,7 @@ static lobe_result set_bins(const device_scene *scene, const device_material *ma
                             const lobe_survey *survey, const partition_request *request,
                             const lobe_allocator *allocator, moment_partition *partition) {
     bin_choice choice;
-    if (!passes_bins_choose(scene, material, survey, request->bins, request->colour, allocator,
-                            &choice))
+    if (!passes_bins_choose(scene, material, survey, &request->bins, allocator, &choice))
         return LOBE_ERROR_OUT_OF_MEMORY;
     partition->own_colours = choice.own_colours;
     partition->points = (float)choice.mixture.points;

@@ -28,11 +28,8 @@ typedef struct moment_partition {
 } moment_partition;
 
 typedef struct partition_request {
-    uint32_t kind; ///< PARTITION_...
-    /// Of a fitted partition: the number of bins [1, MOMENT_MAXIMUM_BINS], or 0 for as few as serve
-    /// the maps about as well as more. Partitions by hats have a fixed number.
-    uint32_t bins;
-    bin_colour colour;
+    uint32_t kind;    ///< PARTITION_...
+    bin_request bins; ///< of a fitted partition; partitions by hats have a fixed number
 } partition_request;
 
 /// Partitions the lobes of a material that has a normal or a width map. Errors:

@@ -161,15 +161,15 @@ static void bumps_is_within_bounds(void **state) {
                                          {"leadr", 0.42},
                                          {"multi_leadr", 0.25},
                                          {"lobes", 0.21},
-                                         {"moments", 0.238},
+                                         {"moments", 0.2},
                                          {"tan", 8.8},
                                          {"mixture", 0.2}},
                                         {{"lobes", "mipmap", 0.3},
                                          {"lobes", "direct", 0.3},
                                          {"toksvig", "mipmap", 0.3},
-                                         {"moments", "lobes", 1.2},
+                                         {"moments", "lobes", 1.1},
                                          {"moments", "lean", 0.7},
-                                         {"mixture", "moments", 0.9}}};
+                                         {"mixture", "moments", 1.1}}};
     check_scene(*state, &bounds);
 }
 

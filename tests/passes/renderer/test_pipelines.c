@@ -121,11 +121,15 @@ static lobe_scene *curved_scene(void) {
     return scene;
 }
 
-/// A choice that would otherwise depend on the material's values; NULL: none.
+/// Choices that would otherwise depend on the material's values; NULL: none.
 static const char *fixed_choice(const char *filter) {
     return strcmp(filter, "moments") == 0 ? "bins=6"
            : strcmp(filter, "lobes") == 0 ? "subdivision=2"
                                           : NULL;
+}
+
+static const char *fixed_colour(const char *filter) {
+    return strcmp(filter, "moments") == 0 ? "colour=mean" : NULL;
 }
 
 /// Draws with the knob at this value, and returns the picture's hash.
@@ -133,7 +137,7 @@ static uint64_t draw_at(fixture *f, const char *filter, const lobe_knob *knob, d
     char assignment[64];
     snprintf(assignment, sizeof assignment, "%s=%.9g", knob->name, value);
     picture_request request = {.filter = filter,
-                               .settings = {assignment, fixed_choice(filter)},
+                               .settings = {assignment, fixed_choice(filter), fixed_colour(filter)},
                                .width = 12,
                                .height = 8,
                                .samples = 1};

@@ -37,8 +37,9 @@ static void with_map(fixture *f, lobe_scene *scene, const lobe_material *materia
     pass_run run;
     pass_run_begin(&run, f, scene, "moments", (const char *[]){request->base, NULL});
     moment_partition partition;
-    const partition_request wanted = {request->kind, request->bins,
-                                      request->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
+    const partition_request wanted = {
+        request->kind,
+        {.bins = request->bins, .colour = request->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN}};
     assert_int_equal(passes_moment_partition_make(run.scene, 0, &wanted, &f->host, &partition),
                      LOBE_OK);
     partition.constants.largest[1] = (float)request->colour_scale;

@@ -126,8 +126,10 @@ static reference_moment_bins bins_of(fixture *f, lobe_scene *scene, const sharin
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
     moment_partition partition;
-    const partition_request request = {how->kind, how->bins,
-                                       how->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN};
+    const partition_request request = {how->kind,
+                                       {.bins = how->bins,
+                                        .colour = how->colour ? BIN_COLOUR_OWN : BIN_COLOUR_MEAN,
+                                        .gain = 0.115}};
     assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &partition),
                      LOBE_OK);
     passes_device_scene_destroy(&uploaded);

@@ -15,15 +15,19 @@
 /// A number of bins to be chosen.
 enum { AUTOMATIC = 0 };
 
+/// What fetches must gain by default.
+static const double usual_gain = 0.115;
+
 /// Uploads a scene of one square and returns its material's partition. Destroys the scene
 /// afterwards, unless `keep`.
-static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_material *material,
-                                     uint32_t kind, uint32_t bins, bool keep) {
+static moment_partition partition_at_gain(fixture *f, lobe_scene *scene,
+                                          const lobe_material *material, uint32_t kind,
+                                          uint32_t bins, double gain, bool keep) {
     scene_end_with_square(scene, material);
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
-    const partition_request request = {kind, bins, BIN_COLOUR_AUTOMATIC};
+    const partition_request request = {kind, {bins, BIN_COLOUR_AUTOMATIC, gain}};
     moment_partition partition, again;
     assert_int_equal(passes_moment_partition_make(uploaded, 0, &request, &f->host, &partition),
                      LOBE_OK);
@@ -34,6 +38,11 @@ static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_m
     if (!keep)
         lobe_scene_destroy(&scene);
     return partition;
+}
+
+static moment_partition partition_of(fixture *f, lobe_scene *scene, const lobe_material *material,
+                                     uint32_t kind, uint32_t bins, bool keep) {
+    return partition_at_gain(f, scene, material, kind, bins, usual_gain, keep);
 }
 
 /// A map whose texels take turns at `count` normals, each tilted from the pole towards +X by an
@@ -122,14 +131,61 @@ static void as_many_bins_as_pay(void **state) {
     assert_int_equal(partition_of_tilts(*state, 1, two_sides, 2, AUTOMATIC).bins, 1);
 }
 
+/// Pyramids of 16 x 16 texels, whose sides have a slope of one half.
+static lobe_image pyramids(uint32_t extent) {
+    lobe_image image = constant_map(extent, extent, 0.5f, 0.5f, 1);
+    for (uint32_t i = 0; i < extent * extent; i++) {
+        const double x = (double)(i % extent % 16) - 7.5, y = (double)(i / extent % 16) - 7.5,
+                     cosine = sqrt(0.8);
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        texel[fabs(x) > fabs(y) ? 0 : 1] =
+            (float)(0.5 + copysign(0.25 * cosine, fabs(x) > fabs(y) ? x : y));
+        texel[2] = (float)(0.5 + 0.5 * cosine);
+    }
+    return image;
+}
+
 /// Under a point of light many sharp lobes are spikes, which no bins match; a broad one shows where
 /// there are more of them.
 static void sharp_lobes_of_many_directions_take_several_bins(void **state) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.1, 1);
-    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.7, 33));
+    material.normal_map = scene_add_map(scene, pyramids(64));
     assert_true(partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false).bins >
-                1);
+                3);
+}
+
+/// Of noise on rough metal, where each further bin gains a little.
+static uint32_t bins_of_noise_at_gain(fixture *f, double gain) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(64, 64, 0.7, 33));
+    return partition_at_gain(f, scene, &material, PARTITION_FITTED, AUTOMATIC, gain, false).bins;
+}
+
+static void the_less_fetches_must_gain_the_more_bins(void **state) {
+    static const double gains[] = {0.9, 0.3, 0.1, 0.02, 0};
+    uint32_t before = 1;
+    assert_int_equal(bins_of_noise_at_gain(*state, gains[0]), 1);
+    for (size_t i = 1; i < sizeof gains / sizeof *gains; i++) {
+        const uint32_t bins = bins_of_noise_at_gain(*state, gains[i]);
+        assert_true(bins >= before);
+        before = bins;
+    }
+    assert_true(before > 3);
+}
+
+/// Squares of a few texels show parts of two lobes that all the maps have in equal parts, which one
+/// bin stands for.
+static void small_footprints_take_bins_too(void **state) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 1);
+    lobe_image widths = constant_map(64, 64, 1, 1, 1);
+    for (uint32_t i = 0; i < 64 * 64; i++)
+        ((float *)widths.texels)[(size_t)4 * i] = two_widths[(i % 64 / 8 + i / 64 / 8) % 2];
+    material.width_map = scene_add_map(scene, widths);
+    assert_int_equal(
+        partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false).bins, 2);
 }
 
 /// Noise beside polished facets of two sides, which reflect this part of what the noise does.
@@ -404,6 +460,8 @@ int main(void) {
         cmocka_unit_test(widths_are_told_apart),
         cmocka_unit_test(as_many_bins_as_pay),
         cmocka_unit_test(sharp_lobes_of_many_directions_take_several_bins),
+        cmocka_unit_test(the_less_fetches_must_gain_the_more_bins),
+        cmocka_unit_test(small_footprints_take_bins_too),
         cmocka_unit_test(black_texels_decide_nothing),
         cmocka_unit_test(bins_have_colours_that_go_with_lobes),
         cmocka_unit_test(what_was_asked_for),

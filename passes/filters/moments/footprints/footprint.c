@@ -1,4 +1,4 @@
-#include "passes/filters/moments/footprint.h"
+#include "passes/filters/moments/footprints/footprint.h"
 
 #include <math.h>
 

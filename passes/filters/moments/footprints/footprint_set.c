@@ -1,0 +1,149 @@
+#include "passes/filters/moments/footprints/footprint_set.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "passes/context/sample_pattern.h"
+#include "passes/maps/colours/lobe_mask.h"
+#include "passes/upload/material_maps.h"
+
+// In texels. What small ones show differs from place to place: one lobe or parts of two, which no
+// single bin serves. What large ones show is the same everywhere, but of more lobes.
+static const double widths[] = {8, 32, 128};
+enum { WIDTHS = sizeof widths / sizeof *widths };
+
+/// Points that are read along each side of a square.
+enum { POINTS = 24 };
+
+// An error of the mean diffuse colour counts as much as this much relative L2 of the lobes.
+static const double diffuse_weight = 3;
+
+// Below this part of what footprints reflect in the mean, errors count as much as they add to it.
+static const double least_colour = 0.1;
+
+// ---------------------------------------------------------------------------------------------
+// Squares
+
+/// In texels of the lobe_grid.
+typedef struct map_square {
+    double corner[2], size[2];
+} map_square;
+
+/// Squares are spread evenly, and moved by hashed parts of a cell, so that no period of the maps is
+/// met at the same phase.
+static map_square place_square(const lobe_grid *grid, uint32_t index) {
+    const double extent[2] = {grid->width, grid->height};
+    const uint32_t cell[2] = {index, index * 5 % FOOTPRINT_SQUARES};
+    map_square square;
+    for (uint32_t axis = 0; axis < 2; axis++) {
+        const double part = passes_hashed_number(2 * (uint64_t)index + axis);
+        square.size[axis] = fmin(extent[axis], widths[index % WIDTHS]);
+        square.corner[axis] =
+            (cell[axis] + part) / FOOTPRINT_SQUARES * (extent[axis] - square.size[axis]);
+    }
+    return square;
+}
+
+/// One point in each of the square's cells, by a hash: what pictures show is what is interpolated
+/// between texels, too, and lobes of all directions between those of the texels fill valleys
+/// between bins.
+static void place_point(const map_square *square, uint32_t index, uint32_t i, double point[2]) {
+    const uint64_t number = 2 * ((uint64_t)index << 32 | i);
+    const uint32_t cell[2] = {i % POINTS, i / POINTS};
+    for (uint32_t axis = 0; axis < 2; axis++)
+        point[axis] = square->corner[axis] + (cell[axis] + passes_hashed_number(number + axis)) /
+                                                 POINTS * square->size[axis];
+}
+
+static void read_square(const lobe_scene *scene, const device_material *material,
+                        const lobe_mask *mask, uint32_t index, footprint *read) {
+    const lobe_grid grid = passes_lobe_grid(material);
+    const map_square square = place_square(&grid, index);
+    for (uint32_t i = 0; i < POINTS * POINTS; i++) {
+        double point[2];
+        place_point(&square, index, i, point);
+        if (passes_lobe_mask_cuts(mask, point))
+            continue;
+        read->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
+                                                 &read->lobes[read->count]);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------
+// The set
+
+static uint32_t count_lights(const lobe_survey *survey) {
+    for (uint32_t i = 0; i < survey->count; i++)
+        if (passes_footprint_is_sharp(survey->samples[i].variance))
+            return FOOTPRINT_LIGHTS;
+    return 1;
+}
+
+/// Errors are relative to each footprint, but for those that are all but black.
+static void find_units(const footprint_set *set, uint32_t light, double units[FOOTPRINTS]) {
+    double colours[FOOTPRINTS], mean = 0;
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        const footprint_light *lit = &set->all[i].lights[light];
+        colours[i] = sqrt(lit->square / fmax(lit->whites, 1e-30));
+        mean += colours[i] / FOOTPRINTS;
+    }
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        const double colour = fmax(colours[i], least_colour * mean);
+        units[i] = fmax(set->all[i].lights[light].whites * colour * colour, 1e-30);
+    }
+}
+
+/// The last is of all the maps, and so is a square that a mask cuts away.
+footprint_set *passes_footprint_set_read(const device_scene *scene, const device_material *material,
+                                         const lobe_survey *survey,
+                                         const lobe_allocator *allocator) {
+    enum { LOBES = POINTS * POINTS * LOBE_MATERIAL_MAXIMUM_LOBES };
+    const bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
+    const uint32_t lights = count_lights(survey);
+    const lobe_mask mask = passes_lobe_mask(scene, material);
+    footprint_set *set = lobe_allocate(
+        allocator, 1,
+        sizeof *set + ((size_t)FOOTPRINT_SQUARES * LOBES + survey->count) * sizeof *set->lobes);
+    if (!set)
+        return NULL;
+    plane_sample *whole = set->lobes + (size_t)FOOTPRINT_SQUARES * LOBES;
+    memcpy(whole, survey->samples, survey->count * sizeof *survey->samples);
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        footprint *one = &set->all[i];
+        one->lobes = set->lobes + (size_t)i * LOBES;
+        one->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
+        one->light_count = lights;
+        if (i < FOOTPRINT_SQUARES)
+            read_square(scene->scene, material, &mask, i, one);
+        if (one->count == 0) {
+            one->lobes = whole;
+            one->count = survey->count;
+        }
+        passes_footprint_complete(one, microfacet);
+    }
+    for (uint32_t i = 0; i < FOOTPRINT_LIGHTS; i++)
+        find_units(set, i, set->units[i]);
+    return set;
+}
+
+uint32_t passes_footprint_set_compare(const footprint_set *set, const plane_mixture *mixture,
+                                      footprint_error errors[FOOTPRINT_LIGHTS]) {
+    const uint32_t lights = set->all[0].light_count;
+    double diffuse = 0;
+    for (uint32_t k = 0; k < lights; k++)
+        errors[k] = (footprint_error){0};
+    for (uint32_t i = 0; i < FOOTPRINTS; i++) {
+        footprint_error own[FOOTPRINT_LIGHTS];
+        passes_footprint_compare(&set->all[i], mixture, own);
+        for (uint32_t k = 0; k < lights; k++) {
+            errors[k].mean_colour += own[k].mean_colour / set->units[k][i] / FOOTPRINTS;
+            errors[k].bin_colours += own[k].bin_colours / set->units[k][i] / FOOTPRINTS;
+        }
+        diffuse += set->all[i].diffuse_error / FOOTPRINTS;
+    }
+    for (uint32_t k = 0; k < lights; k++) {
+        const double error = sqrt(errors[k].mean_colour) + diffuse_weight * diffuse;
+        errors[k].mean_colour = error * error;
+    }
+    return lights;
+}
