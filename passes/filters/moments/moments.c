@@ -41,14 +41,20 @@ static const filter_knob bins_knob = {
          .sweep = "1,2,3,4"},
     .decides_slots = true,
 };
+/// A choice, because each value has a partition of its own.
+static const char *const bin_gains[] = {"0", "0.05", "0.115", "0.2", "0.4", NULL};
+static const double bin_gain_values[] = {0, 0.05, 0.115, 0.2, 0.4};
+
 static const filter_knob bin_gain_knob = {
     .description = {.name = "bin_gain",
                     .summary =
                         "part of the squared error that each fetch of more bins, or of their "
                         "own colours, has to take away to be worth its time; 0: the least "
                         "error at any cost",
-                    .maximum = 0.9,
-                    .initial = 0.115,
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 4,
+                    .initial = 2,
+                    .choices = bin_gains,
                     .sweep = "0,0.05,0.4"},
     .decides_slots = true,
 };
@@ -162,7 +168,7 @@ static lobe_result prepare_partition(const filter_context *context, uint32_t ind
         .kind = passes_knob_choice(context, &partition_knob),
         .bins = {.bins = passes_knob_choice(context, &bins_knob),
                  .colour = colour_of_bins(context, &context->scene->materials[index]),
-                 .gain = passes_knob_value(context, &bin_gain_knob)}};
+                 .gain = bin_gain_values[passes_knob_choice(context, &bin_gain_knob)]}};
     prepared_moments *prepared =
         lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)

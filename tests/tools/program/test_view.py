@@ -327,7 +327,7 @@ def test_monitors_of_other_dots():
     if missing():
         return missing()
     plain = seen(640, 480)
-    window().do("windowsize", window().number, 640, 580, "key", "Tab")
+    window().do("windowsize", window().number, 640, 600, "key", "Tab")
     width = panel_width()
     window().meets("scale 2", "mousemove", 630, 470)
     check(abs(panel_width() - 2 * width) <= 2, f"{width} pixels have become {panel_width()}")
@@ -335,12 +335,12 @@ def test_monitors_of_other_dots():
     check(panel_width() == width, f"{width} pixels have become {panel_width()}")
     radiance = colours()
     # The knob "view": its choices come down.
-    window().meets("unit 2", "mousemove", 200, 491)
-    for choice in (562, 514):
-        window().do("mousemove", 200, 491, "click", 1)
+    window().meets("unit 2", "mousemove", 200, 511)
+    for choice in (582, 534):
+        window().do("mousemove", 200, 511, "click", 1)
         window().do("mousemove", 150, choice, "click", 1)
         window().do("mousemove", 600, 100)  # no explanation then
-        expected = 1 if choice == 562 else len(radiance)
+        expected = 1 if choice == 582 else len(radiance)
         check(len(colours()) == expected, f"{choice}: {len(colours())} colours, not {expected}")
     window().meets("unit 1", "mousemove", 630, 470)
     window().do("windowsize", window().number, *SIZE, "key", "Tab")
