@@ -48,3 +48,9 @@ double passes_hashed_number(uint64_t index) {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return (double)((z ^ (z >> 31)) >> 11) / 9007199254740992.0;
 }
+
+void passes_spread_position(uint32_t index, uint32_t count, double position[2]) {
+    const uint32_t cell[2] = {index, index * 5 % count};
+    for (uint32_t axis = 0; axis < 2; axis++)
+        position[axis] = (cell[axis] + passes_hashed_number(2 * (uint64_t)index + axis)) / count;
+}

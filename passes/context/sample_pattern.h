@@ -25,4 +25,8 @@ void passes_sample_position_in_pattern(uint32_t pattern, float position[2]);
 /// A pseudorandom number in [0, 1) for each index, the same on every machine.
 double passes_hashed_number(uint64_t index);
 
+/// Position `index` of `count` that are spread evenly over [0, 1)^2, each moved inside its cell by
+/// a hash, so that no period of a map is met at the same phase. `count`: not a multiple of 5.
+void passes_spread_position(uint32_t index, uint32_t count, double position[2]);
+
 #endif

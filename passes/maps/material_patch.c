@@ -26,24 +26,26 @@ double passes_material_patch_evaluate(const material_patch *patch, const double 
     return passes_material_lobes_evaluate(patch->lobes, patch->count, direction);
 }
 
-material_patch_place passes_material_patch_place(const device_material *material, uint32_t index) {
+/// Where a patch lies in the lobe_grid, texels.
+typedef struct patch_place {
+    uint32_t left, top, columns, rows;
+} patch_place;
+
+static patch_place place_patch(const device_material *material, uint32_t index) {
     const lobe_grid grid = passes_lobe_grid(material);
-    // Moved by hashed parts of a cell, so that no period of the maps is met at the same phase.
-    const double x = (index + passes_hashed_number(2 * (uint64_t)index)) / MATERIAL_PATCHES;
-    const double y =
-        (index * 5 % MATERIAL_PATCHES + passes_hashed_number(2 * (uint64_t)index + 1)) /
-        MATERIAL_PATCHES;
-    material_patch_place at = {
+    double position[2];
+    passes_spread_position(index, MATERIAL_PATCHES, position);
+    patch_place at = {
         .columns = grid.width < MATERIAL_PATCH_EXTENT ? grid.width : MATERIAL_PATCH_EXTENT,
         .rows = grid.height < MATERIAL_PATCH_EXTENT ? grid.height : MATERIAL_PATCH_EXTENT};
-    at.left = (uint32_t)(x * (grid.width - at.columns + 1));
-    at.top = (uint32_t)(y * (grid.height - at.rows + 1));
+    at.left = (uint32_t)(position[0] * (grid.width - at.columns + 1));
+    at.top = (uint32_t)(position[1] * (grid.height - at.rows + 1));
     return at;
 }
 
-void passes_material_patch_point(const material_patch_place *place, const lobe_mask *mask,
-                                 uint32_t i, double point[2]) {
-    const uint32_t x = place->left + i % place->columns, y = place->top + i / place->columns;
+/// Where texel `i` of the patch's columns * rows is read, in texels of the lobe_grid.
+static void place_point(const patch_place *at, const lobe_mask *mask, uint32_t i, double point[2]) {
+    const uint32_t x = at->left + i % at->columns, y = at->top + i / at->columns;
     if (mask->cuts_texels) {
         passes_lobe_mask_point(mask, x, y, point);
         return;
@@ -55,12 +57,12 @@ void passes_material_patch_point(const material_patch_place *place, const lobe_m
 
 bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,
                                 uint32_t index, material_patch *patch) {
-    const material_patch_place at = passes_material_patch_place(material, index);
+    const patch_place at = place_patch(material, index);
     uint32_t kept = 0;
     patch->count = 0;
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
-        passes_material_patch_point(&at, mask, i, point);
+        place_point(&at, mask, i, point);
         if (passes_lobe_mask_cuts(mask, point))
             continue;
         kept++;

@@ -15,16 +15,6 @@ typedef struct material_patch {
     size_t count;                                     ///< 0: a mask cuts all away
 } material_patch;
 
-/// Where a patch lies in the lobe_grid, texels.
-typedef struct material_patch_place {
-    uint32_t left, top, columns, rows;
-} material_patch_place;
-
-material_patch_place passes_material_patch_place(const device_material *material, uint32_t index);
-/// Where texel `i` of the patch's columns * rows is read, in texels of the lobe_grid.
-void passes_material_patch_point(const material_patch_place *place, const lobe_mask *mask,
-                                 uint32_t i, double point[2]);
-
 /// What a mask keeps of patch `index` of MATERIAL_PATCHES. False if a map has a format that the
 /// host does not read.
 bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,

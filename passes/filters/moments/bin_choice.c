@@ -13,7 +13,7 @@
 static const double points[] = {1.5, 3, 10};
 enum { POINT_NUMBERS = sizeof points / sizeof *points };
 
-// Where the host cannot read the maps, and so try them.
+// For maps that the host cannot read, so that nothing can be tried.
 static const double points_of_unread = 3;
 static const uint32_t bins_of_unread = 3;
 
@@ -81,13 +81,13 @@ static uint32_t count_fetches(const device_material *material, uint32_t bins, bo
            (material->maps[MAP_SPECULAR].use != NULL) + material->metallic_varies;
 }
 
-/// What is least for the best candidate: the logarithm of its error, and of what its fetches have
-/// to gain.
+/// The best candidate has the least: the logarithm of its error, plus what its fetches have to take
+/// off that to be worth their time.
 static double demerit_of(double logarithm, uint32_t fetches, double gain) {
     return logarithm - fetches * log1p(-gain);
 }
 
-/// What no candidate of this many bins, or more, can be below.
+/// A lower bound for all candidates of this many bins or more.
 static double least_demerit(const device_material *material, uint32_t bins, double gain) {
     const uint32_t mean = count_fetches(material, bins, false);
     const uint32_t own = count_fetches(material, bins, true);

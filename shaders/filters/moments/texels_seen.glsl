@@ -88,6 +88,7 @@ texel_area area_of_texel(map_area area, texels_seen seen, uint index, out float 
     return texel_area(texel, true);
 }
 
+// The mean of one layer of moment_map over what is fetched.
 vec4 moment_layer(texel_area texels, uint layer) {
     if (SINGLE_TEXELS != SINGLE_TEXELS_NEVER && texels.single)
         return textureLod(moment_texels, vec3(texels.area.centre, layer), texels.area.level - 1.0);

@@ -97,12 +97,30 @@ static void patterns_are_moved_apart(void **state) {
     assert_true(moved[0][0] == 0 && moved[0][1] == 0);
 }
 
+/// One in each row and each column of cells.
+static void spread_positions_are_even(void **state) {
+    (void)state;
+    enum { COUNT = 12 };
+    bool taken[2][COUNT] = {0};
+    for (uint32_t i = 0; i < COUNT; i++) {
+        double position[2];
+        passes_spread_position(i, COUNT, position);
+        for (int axis = 0; axis < 2; axis++) {
+            assert_true(position[axis] >= 0 && position[axis] < 1);
+            bool *cell = &taken[axis][(int)(position[axis] * COUNT)];
+            assert_false(*cell);
+            *cell = true;
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_sample_is_the_centre),
         cmocka_unit_test(any_count_is_stratified),
         cmocka_unit_test(samples_are_even_in_both_directions),
         cmocka_unit_test(patterns_are_moved_apart),
+        cmocka_unit_test(spread_positions_are_even),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

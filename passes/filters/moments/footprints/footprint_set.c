@@ -29,24 +29,20 @@ typedef struct map_square {
     double corner[2], size[2];
 } map_square;
 
-/// Squares are spread evenly, and moved by hashed parts of a cell, so that no period of the maps is
-/// met at the same phase.
 static map_square place_square(const lobe_grid *grid, uint32_t index) {
     const double extent[2] = {grid->width, grid->height};
-    const uint32_t cell[2] = {index, index * 5 % FOOTPRINT_SQUARES};
+    double position[2];
     map_square square;
+    passes_spread_position(index, FOOTPRINT_SQUARES, position);
     for (uint32_t axis = 0; axis < 2; axis++) {
-        const double part = passes_hashed_number(2 * (uint64_t)index + axis);
         square.size[axis] = fmin(extent[axis], widths[index % WIDTHS]);
-        square.corner[axis] =
-            (cell[axis] + part) / FOOTPRINT_SQUARES * (extent[axis] - square.size[axis]);
+        square.corner[axis] = position[axis] * (extent[axis] - square.size[axis]);
     }
     return square;
 }
 
-/// One point in each of the square's cells, by a hash: what pictures show is what is interpolated
-/// between texels, too, and lobes of all directions between those of the texels fill valleys
-/// between bins.
+/// One point in each of the square's cells, by a hash. Pictures interpolate between texels, too,
+/// and the directions in between fill the valleys between bins.
 static void place_point(const map_square *square, uint32_t index, uint32_t i, double point[2]) {
     const uint64_t number = 2 * ((uint64_t)index << 32 | i);
     const uint32_t cell[2] = {i % POINTS, i / POINTS};
