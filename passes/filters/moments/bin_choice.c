@@ -113,7 +113,7 @@ static void choose(const device_material *material, const footprint_set *set,
             if (found && !(demerit < least))
                 continue;
             *choice = best[own].choice;
-            least = demerit;
+            least = fmin(least, demerit);
             found = true;
         }
     }
