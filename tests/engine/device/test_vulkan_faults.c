@@ -5,6 +5,7 @@
 #include "tests/engine/support/cmocka_all.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <lobe/graph.h>
@@ -17,6 +18,7 @@
 #include "tests/engine/support/temporary_folder.h"
 #include "tests/engine/support/test_shaders.h"
 #include "tests/engine/support/vulkan_faults.h"
+#include "tests/long_runs.h"
 
 // ---------------------------------------------------------------------------------------------
 // A frame that uses everything
@@ -28,6 +30,7 @@ typedef struct work {
     lobe_buffer *vertices;
     lobe_graph *graph;
     lobe_texture *large; ///< of the graph
+    int opening;         ///< calls until the device was there
 } work;
 
 /// A host with its own Vulkan device, which lobe imports many times.
@@ -55,6 +58,7 @@ static lobe_result open_work(work *w, host *host) {
     float texels[4][4] = {{0}};
     const lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 2, 2, texels};
     lobe_result result = open_device(w, host);
+    w->opening = faults.calls;
     result = result ? result : add_test_shaders(w->device);
     result = result ? result
                     : lobe_texture_create(w->device, &(lobe_texture_parameters){.image = &image},
@@ -292,27 +296,36 @@ static void check_fault(run_function run, host *host, VkResult with, int alive) 
         fail_msg("call %d, %s: %d objects are left", faults.failing, name, faults.alive - alive);
 }
 
-static void check_each_call(run_function run, host *host, int least) {
+/// `step`: after the device has been opened, one call in so many fails.
+static void check_calls(run_function run, host *host, int least, int step) {
     work w;
     const int alive = faults.alive;
     faults.failing = 0;
     assert_int_equal(start_and_run(run, &w, host), LOBE_OK);
     close_work(&w);
-    const int during = faults.calls;
+    const int during = faults.calls, opening = w.opening;
     assert_int_equal(faults.alive, alive);
     assert_true(during >= least);
-    for (faults.failing = 1; faults.failing <= during; faults.failing++) {
+    int checked = 0;
+    for (faults.failing = 1; faults.failing <= during;
+         faults.failing += faults.failing < opening ? 1 : step) {
         check_fault(run, host, VK_ERROR_OUT_OF_DEVICE_MEMORY, alive);
         // Clean-up is the same for every code: some calls are enough.
-        if (faults.failing % 4 == 1)
+        if (checked++ % 4 == 0)
             check_fault(run, host, VK_ERROR_DEVICE_LOST, alive);
     }
     faults.failing = 0;
 }
 
+static void check_each_call(run_function run, host *host, int least) {
+    check_calls(run, host, least, 1);
+}
+
+/// Opening devices takes longest. What follows is the same code as on a host's device, where every
+/// call fails.
 static void each_call_fails_once(void **state) {
     (void)state;
-    check_each_call(run_on_own_device, NULL, 60);
+    check_calls(run_on_own_device, NULL, 60, long_runs() ? 1 : 3);
 }
 
 static void each_call_fails_once_with_validation(void **state) {
@@ -479,7 +492,16 @@ static void each_function_failed(void **state) {
         fail_msg("%s never failed", name);
 }
 
+/// Lavapipe of Mesa 22.3 corrupts memory when threads of its own draw, which aborts one run in
+/// dozens while other programs use the processors: lp_fence_signalled reads a fence's count without
+/// its mutex, so lp_setup_get_empty_scene may free the fence while the thread in lp_fence_signal
+/// has yet to unlock that mutex. Without such threads, the environment of the tests, nobody does.
+static void leave_out_threads_of_the_driver(void) {
+    setenv("LP_NUM_THREADS", "0", 0);
+}
+
 int main(void) {
+    leave_out_threads_of_the_driver();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_call_fails_once),
         IN_TEST_FOLDER(each_call_fails_once_with_validation),
