@@ -5,19 +5,22 @@ import re
 import shutil
 import subprocess
 import sys
+from functools import cache
 
 import tap
 from program import FOLDER, check, is_wrong_usage, report, succeeds
 
 
+@cache
 def subcommands():
     """The subcommands that the help lists."""
     text = succeeds("--help").stdout
     return re.findall(r"^  (\w+) ", text[text.index("Subcommands:"):], re.MULTILINE)
 
 
+@cache
 def page(*subcommand):
-    """The page's source, as a file."""
+    """The page's source, as a file. Cases share it: the program prints each once."""
     path = FOLDER / ("-".join(("lobe", *subcommand)) + ".1")
     path.write_text(succeeds("manual", *subcommand).stdout, encoding="utf-8")
     return path
