@@ -1,6 +1,8 @@
 #ifndef LIB_FACET_PAIR_GLSL
 #define LIB_FACET_PAIR_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "lib/microfacet/masking.glsl"
 #include "lib/number/constants.glsl"
 
@@ -87,6 +89,8 @@ float facet_pair_exchange_of_microfacets(vec2 slope, vec3 direction, float alpha
     if (local.z <= 0.0)
         return 0.0;
     float outgoing = lambda_ggx(local.z, alpha), sum = 0.0, weights = 1e-10;
+    // Unrolled: lavapipe leaves loops after 65535 turns in all, and then other lights are left out.
+    [[unroll]]
     for (int i = 0; i < count; ++i) {
         vec3 normal = visible_normal(local, alpha, lattice_point(i, count, turn));
         vec3 reflected = 2.0 * dot(local, normal) * normal - local;

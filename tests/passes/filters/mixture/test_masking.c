@@ -166,6 +166,37 @@ static void light_and_viewer_may_change_places(void **state) {
     lobe_image_free(&map);
 }
 
+/// `suns` together are as bright as one.
+static double draw_below_suns(fixture *f, const lobe_image *normals, int suns) {
+    const lobe_material material = white_metal(0.3);
+    double outgoing[3], incoming[3];
+    slope_plane_direction(40, 0.3, outgoing);
+    slope_plane_direction(20, 1, incoming);
+    lobe_material mapped;
+    lobe_scene *scene = slope_plane(&material, normals, outgoing, &mapped);
+    for (int i = 0; i < suns; i++)
+        slope_plane_add_sun(scene, incoming, 1.0 / suns);
+    scene_end(scene);
+    const picture_request request = {.filter = "mixture",
+                                     .settings = {closed, "components=6", "blend_error=0"},
+                                     .width = 1,
+                                     .height = 1};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    const double found = (double)pixel_at(&frame.radiance, 0, 0)[1];
+    lobe_frame_free(&frame);
+    lobe_scene_destroy(&scene);
+    return found;
+}
+
+/// What facets exchange of each light is a loop in a loop for each component of each texel.
+static void no_light_is_left_out(void **state) {
+    lobe_image map = slope_plane_bumpy_map(16, 0.3);
+    const double one = draw_below_suns(*state, &map, 1), many = draw_below_suns(*state, &map, 24);
+    if (!(one > 0 && fabs(many / one - 1) <= 1e-3))
+        fail_msg("%g under one sun, %g under as much light of 24", one, many);
+    lobe_image_free(&map);
+}
+
 // ---------------------------------------------------------------------------------------------
 // The table
 
@@ -211,6 +242,7 @@ int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_closed_white_surface_reflects_all_light),
         cmocka_unit_test(light_and_viewer_may_change_places),
+        cmocka_unit_test(no_light_is_left_out),
     };
     if (count < 2 || strcmp(arguments[1], "table") != 0)
         return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
