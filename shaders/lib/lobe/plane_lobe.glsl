@@ -10,21 +10,23 @@
 // integral of the bell, chosen so that the peak mass / (2 pi v) is the lobe's own. Distributions of
 // microfacet normals have a projected area of one; their mass is therefore above one.
 
-// Broader lobes are treated as this broad and keep their peak, except that GGX keeps its projected
-// area.
+// Broader lobes are treated as this broad and keep their peak.
 const float PLANE_VARIANCE_MAXIMUM = 5.0;
 
 // GGX, with sin^2 = x^2 at small x = |q|:
 //   D = a/(pi (a + (1 - a) x^2)^2) = 1/(1 - a) (1/(pi e)) (1 + x^2/e)^-2,
 //   a = alpha^2, e = a/(1 - a):
 // Student's t distribution of two degrees of freedom, of mass 1/(1 - a). Its variance is infinite;
-// v = e/2 is that of Beckmann's distribution of the same curvature.
+// v = e/2 is that of Beckmann's distribution of the same curvature. With alpha = 1, both have no
+// bounds, as D is the same everywhere. So from this a on the mass stays, and v = a mass/2 grows
+// only as the peak demands: to PLANE_VARIANCE_MAXIMUM at a = 1.
 const float GGX_SQUARE_MAXIMUM = 0.9;
+const float GGX_MASS_MAXIMUM = 1.0 / (1.0 - GGX_SQUARE_MAXIMUM);
 
 float plane_variance(uint distribution, float parameter) {
     if (distribution == DISTRIBUTION_GGX) {
-        float square = min(parameter * parameter, GGX_SQUARE_MAXIMUM);
-        return 0.5 * square / (1.0 - square);
+        float square = min(parameter * parameter, 1.0);
+        return 0.5 * square / (1.0 - min(square, GGX_SQUARE_MAXIMUM));
     }
     return min(1.0 / base_lobe_concentration(distribution, parameter), PLANE_VARIANCE_MAXIMUM);
 }
@@ -33,7 +35,7 @@ float plane_variance(uint distribution, float parameter) {
 // infinite concentration has no mass.
 float parameter_of_plane_variance(uint distribution, float variance) {
     if (distribution == DISTRIBUTION_GGX)
-        return sqrt(2.0 * variance / (1.0 + 2.0 * variance));
+        return sqrt(min(2.0 * variance / min(1.0 + 2.0 * variance, GGX_MASS_MAXIMUM), 1.0));
     return base_lobe_of_concentration(distribution, 1.0 / max(variance, 1e-12));
 }
 
@@ -42,7 +44,7 @@ float plane_mass(uint model, uint distribution, float parameter) {
     bool microfacet = model == MODEL_MICROFACET;
     switch (distribution) {
     case DISTRIBUTION_GGX:
-        return 1.0 + 2.0 * variance;
+        return min(1.0 + 2.0 * variance, GGX_MASS_MAXIMUM);
     case DISTRIBUTION_BECKMANN:
         return 1.0;
     case DISTRIBUTION_BLINN_PHONG:

@@ -9,32 +9,32 @@
 /// Broader lobes are taken to be this broad.
 static const double variance_maximum = 5;
 
-static double ggx_square(double alpha) {
-    return fmin(alpha * alpha, REFERENCE_GGX_SQUARE_MAXIMUM);
+/// From alpha^2 = 0.9 on.
+static const double ggx_mass_maximum = 10;
+
+static double ggx_mass(double alpha) {
+    return alpha < 1 ? fmin(1 / (1 - alpha * alpha), ggx_mass_maximum) : ggx_mass_maximum;
 }
 
 double reference_plane_variance(lobe_distribution distribution, double parameter) {
     if (distribution == LOBE_DISTRIBUTION_GGX)
-        return 0.5 / (1 / ggx_square(parameter) - 1);
+        return 0.5 * parameter * parameter * ggx_mass(parameter);
     return fmin(1 / reference_base_lobe_concentration(distribution, parameter), variance_maximum);
 }
 
 double reference_plane_mass(lobe_material_model model, lobe_distribution distribution,
                             double parameter) {
     static const double pole[3] = {0, 0, 1};
-    double sharp = parameter;
-    if (distribution == LOBE_DISTRIBUTION_GGX)
-        sharp = sqrt(ggx_square(parameter));
     double peak = model == LOBE_MATERIAL_MICROFACET
-                      ? reference_normal_distribution(distribution, pole, pole, sharp)
-                      : reference_half_vector_lobe(distribution, pole, pole, sharp);
+                      ? reference_normal_distribution(distribution, pole, pole, parameter)
+                      : reference_half_vector_lobe(distribution, pole, pole, parameter);
     return 2 * M_PI * reference_plane_variance(distribution, parameter) * peak;
 }
 
 double reference_parameter_of_plane_variance(lobe_distribution distribution, double variance) {
     switch (distribution) {
     case LOBE_DISTRIBUTION_GGX:
-        return sqrt(2 * variance / (1 + 2 * variance));
+        return fmin(sqrt(2 * variance / fmin(1 + 2 * variance, ggx_mass_maximum)), 1);
     case LOBE_DISTRIBUTION_BECKMANN:
         return sqrt(2 * variance);
     case LOBE_DISTRIBUTION_BLINN_PHONG:

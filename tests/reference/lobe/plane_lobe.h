@@ -7,8 +7,7 @@
 /// shaders/lib/lobe/plane_lobe.glsl. A parameter as in base_lobe.h.
 
 double reference_plane_variance(lobe_distribution distribution, double parameter);
-/// So that the bell's peak, mass / (2 pi variance), is the lobe's own; of GGX at least this sharp:
-#define REFERENCE_GGX_SQUARE_MAXIMUM 0.9
+/// So that the bell's peak, mass / (2 pi variance), is the lobe's own.
 double reference_plane_mass(lobe_material_model model, lobe_distribution distribution,
                             double parameter);
 /// The parameter that a variance belongs to.

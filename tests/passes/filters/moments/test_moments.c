@@ -253,6 +253,27 @@ static void lights_add_up(void **state) {
     ground_free(&g);
 }
 
+/// Of roughness 1, which glTF's materials have if they do not say: the broadest lobes there are.
+static void the_roughest_metal_is_as_bright_as_its_texels(void **state) {
+    enum { EXTENT = 64 };
+    static const double slope = 0.25, tolerance = 0.03;
+    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
+    lobe_image normals = slope_plane_bumpy_map(EXTENT, slope);
+    for (int i = 0; i < 4; i++) {
+        double outgoing[3], incoming[3];
+        float found[3];
+        slope_plane_direction(i < 2 ? 0 : 40, 0.3, outgoing);
+        slope_plane_direction(i % 2 ? 50 : 10, 1.5, incoming);
+        slope_plane_draw_lit(*state, &material, &normals, "moments", NULL, outgoing, incoming,
+                             found);
+        const double expected =
+            slope_plane_bumpy_radiance(&material, EXTENT, slope, outgoing, incoming);
+        if (!(fabs((double)found[1] / expected - 1) < tolerance))
+            fail_msg("view and light %d: %g instead of %g", i, (double)found[1], expected);
+    }
+    lobe_image_free(&normals);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Linearity
 
@@ -577,6 +598,7 @@ int main(void) {
         cmocka_unit_test(microfacets_are_shaded_by_their_moments),
         cmocka_unit_test(lobes_are_shaded_by_their_moments),
         cmocka_unit_test(lights_add_up),
+        cmocka_unit_test(the_roughest_metal_is_as_bright_as_its_texels),
         cmocka_unit_test(two_sides_are_the_mean_of_both),
         cmocka_unit_test(moments_of_two_sides_add_up),
         cmocka_unit_test(bins_keep_colours_with_directions),

@@ -180,9 +180,10 @@ static void the_sample_is_of_what_a_mask_keeps_of_texels(void **state) {
             mean += survey->samples[i].weight * survey->samples[i].place[0];
             total += survey->samples[i].weight;
         }
-        // Slopes go from 0.3 at alpha 1 to -0.3 at alpha 0.
+        // Slopes go from 0.3 at alpha 1 to -0.3 at alpha 0: the mean of some 400 that deviate by up
+        // to 0.15 deviates by 0.0075.
         const double expected = 0.3 * (double)cutoffs[k];
-        if (!(fabs(mean / total / expected - 1) < 0.1))
+        if (!(fabs(mean / total - expected) < 0.02))
             fail_msg("cutoff %g: mean place %g instead of about %g", (double)cutoffs[k],
                      mean / total, expected);
         lobe_release(survey);
