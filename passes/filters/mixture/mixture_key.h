@@ -5,7 +5,7 @@
 
 /// Increment it whenever the same material is fitted or stored differently: old files are then no
 /// longer found.
-#define MIXTURE_FILE_VERSION 7
+#define MIXTURE_FILE_VERSION 8
 
 /// A digest of the settings of a fit.
 uint64_t passes_mixture_kind_digest(const filter_context *context, const mixture_kind *kind);
