@@ -163,7 +163,7 @@ void add_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec2 place, surfa
 // The bins of one texel, or of the blend of several: of what `texels` fetches, which has this
 // weight.
 void gather_bins(inout appearance fetched, inout bin_means means, surface_point surface,
-                 texel_area texels, float weight, vec3 incoming[4], vec3 halfway[4],
+                 map_area texels, float weight, vec3 incoming[4], vec3 halfway[4],
                  vec2 places[4]) {
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(surface, texels, weight * fetched.mass_scale, i);
@@ -199,7 +199,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     texels_seen seen = find_texels(fetched.area);
     for (uint i = 0u; i < seen.count; ++i) {
         float weight;
-        texel_area texels = area_of_texel(fetched.area, seen, i, weight);
+        map_area texels = area_of_texel(fetched.area, seen, i, weight);
         if (weight > 0.0)
             gather_bins(fetched, means, surface, texels, weight, incoming, halfway, places);
     }
@@ -379,7 +379,7 @@ vec3 reflect_closed_bin(appearance fetched, surface_point surface, plane_bin bin
 
 // As gather_bins.
 vec3 reflect_texel(inout appearance fetched, inout bin_means means, surface_point surface,
-                   texel_area texels, float weight) {
+                   map_area texels, float weight) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < BINS; ++i) {
         plane_bin bin = read_bin(surface, texels, weight * fetched.mass_scale, i);
@@ -405,7 +405,7 @@ vec3 reflect_bins(inout appearance fetched, surface_point surface) {
     texels_seen seen = find_texels(fetched.area);
     for (uint i = 0u; i < seen.count; ++i) {
         float weight;
-        texel_area texels = area_of_texel(fetched.area, seen, i, weight);
+        map_area texels = area_of_texel(fetched.area, seen, i, weight);
         if (weight > 0.0)
             sum += reflect_texel(fetched, means, surface, texels, weight);
     }

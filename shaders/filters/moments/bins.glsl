@@ -36,7 +36,7 @@ vec4 read_last_layer(map_area area) {
 }
 
 // `mass_scale`: as read_last_layer gives it.
-plane_bin read_bin(surface_point surface, texel_area texels, float mass_scale, uint index) {
+plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
     vec4 place = moment_layer(texels, layers * index);
     vec4 spread = moment_layer(texels, layers * index + 1u);

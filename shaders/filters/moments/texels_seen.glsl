@@ -16,12 +16,6 @@ layout(LOBE_DESCRIPTOR(16)) uniform sampler2DArray moment_map;
 layout(LOBE_DESCRIPTOR(52)) uniform sampler2DArray likeness_map;
 layout(LOBE_DESCRIPTOR(53)) uniform sampler2DArray moment_texels; // moment_map again
 
-// What is fetched at once.
-struct texel_area {
-    map_area area;
-    bool single; // one texel, which `area` is the centre of
-};
-
 // What is evaluated for a probe: the blend of all of a trilinear sampler's texels, or for each of
 // two levels the blend of four texels or each of these.
 struct texels_seen {
@@ -64,10 +58,10 @@ texels_seen find_texels(map_area area) {
 }
 
 // What fetches number `index` of these alone; `weight`: its part of the pixel.
-texel_area area_of_texel(map_area area, texels_seen seen, uint index, out float weight) {
+map_area area_of_texel(map_area area, texels_seen seen, uint index, out float weight) {
     weight = 1.0;
     if (SINGLE_TEXELS == SINGLE_TEXELS_NEVER || seen.blended)
-        return texel_area(area, false);
+        return area;
     uint of_probe = seen.finer + seen.coarser, probe = index / of_probe, own = index % of_probe;
     bool is_coarser = own >= seen.finer;
     if (is_coarser)
@@ -80,19 +74,21 @@ texel_area area_of_texel(map_area area, texels_seen seen, uint index, out float 
     texel.centre = probe_position(area, probe);
     texel.probes = 1u;
     if ((is_coarser ? seen.coarser : seen.finer) == 1u)
-        return texel_area(texel, false);
+        return texel;
     vec2 size = size_of_level(textureSize(moment_map, 0).xy, level);
     bilinear_texel one = find_bilinear_texel(texel.centre, size, own);
     weight *= one.weight;
     texel.centre = one.position;
-    return texel_area(texel, true);
+    return texel;
 }
 
-// The mean of one layer of moment_map over what is fetched.
-vec4 moment_layer(texel_area texels, uint layer) {
-    if (SINGLE_TEXELS != SINGLE_TEXELS_NEVER && texels.single)
-        return textureLod(moment_texels, vec3(texels.area.centre, layer), texels.area.level - 1.0);
-    return filtered_layer(moment_map, texels.area, layer);
+// The mean of one layer of moment_map over what is fetched. Where every fetch is of a single texel, a
+// sampler that does not blend is faster. Where only some are, lavapipe would compute both; and at a
+// texel's centre, a blend is that texel.
+vec4 moment_layer(map_area texels, uint layer) {
+    if (SINGLE_TEXELS == SINGLE_TEXELS_ALWAYS)
+        return textureLod(moment_texels, vec3(texels.centre, layer), texels.level - 1.0);
+    return filtered_layer(moment_map, texels, layer);
 }
 
 #endif
