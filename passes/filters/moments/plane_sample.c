@@ -4,12 +4,17 @@
 
 #include "passes/upload/colours/material_colours.h"
 
+/// Of alpha^2, as GGX_SQUARE_MAXIMUM in shaders/lib/lobe/plane_lobe.glsl: there the mass stays.
+static const double ggx_square_maximum = 0.9;
+
+double passes_plane_mass_of_ggx(double concentration) {
+    return 1 / (1 - fmin(2 / concentration, ggx_square_maximum));
+}
+
 double passes_plane_variance(const lobe_material *material, double concentration) {
     if (material->distribution != LOBE_DISTRIBUTION_GGX)
         return 1 / fmax(concentration, 0.2);
-    // As plane_variance in shaders/lib/lobe/plane_lobe.glsl.
-    double square = fmin(2 / concentration, 1); // alpha^2
-    return 0.5 * square / (1 - fmin(square, 0.9));
+    return 0.5 * fmin(2 / concentration, 1) * passes_plane_mass_of_ggx(concentration);
 }
 
 /// The place of a unit direction.
@@ -45,7 +50,7 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
         place_of(lobes[k].axis, sample->place);
         sample->variance = passes_plane_variance(source, lobes[k].concentration);
         bool ggx = source->distribution == LOBE_DISTRIBUTION_GGX;
-        sample->mass = ggx ? fmin(1 + 2 * sample->variance, 10) : 1;
+        sample->mass = ggx ? passes_plane_mass_of_ggx(lobes[k].concentration) : 1;
         sample->weight = weight * lobes[k].weight;
         sample->metallic = colours.metallic;
         for (int i = 0; i < 3; i++) {

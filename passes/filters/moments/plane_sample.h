@@ -18,6 +18,9 @@ uint32_t passes_plane_samples_read(const lobe_scene *scene, const device_materia
                                    double x, double y, double weight,
                                    plane_sample samples[LOBE_MATERIAL_MAXIMUM_LOBES]);
 
+/// The mass of a GGX lobe of this concentration (plane_mass in shaders/lib/lobe/plane_lobe.glsl).
+double passes_plane_mass_of_ggx(double concentration);
+
 /// The variance of a material's lobe of this concentration.
 double passes_plane_variance(const lobe_material *material, double concentration);
 

@@ -244,11 +244,11 @@ static void read_all(surveying *s) {
 /// either setting of the knob "base".
 static double largest_mass(const lobe_material *material, double kappa) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
-    double square = fmin(2 / kappa, 0.9), clamped = fmax(kappa, 1e-6);
+    double clamped = fmax(kappa, 1e-6);
     double projected = 0.5 * (1 + passes_mean_resultant_length(clamped / 2)) / (1 + exp(-clamped));
     double variance = 1 / fmax(kappa, 0.2);
     double mass = variance * clamped / -expm1(-2 * clamped) / (microfacet ? projected : 1);
-    return microfacet ? fmax(mass, fmax(1 / (1 - square), 1 + variance)) : mass;
+    return microfacet ? fmax(mass, fmax(passes_plane_mass_of_ggx(kappa), 1 + variance)) : mass;
 }
 
 /// The largest mass of a lobe between two concentrations.

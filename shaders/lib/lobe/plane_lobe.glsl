@@ -17,9 +17,9 @@ const float PLANE_VARIANCE_MAXIMUM = 5.0;
 //   D = a/(pi (a + (1 - a) x^2)^2) = 1/(1 - a) (1/(pi e)) (1 + x^2/e)^-2,
 //   a = alpha^2, e = a/(1 - a):
 // Student's t distribution of two degrees of freedom, of mass 1/(1 - a). Its variance is infinite;
-// v = e/2 is that of Beckmann's distribution of the same curvature. With alpha = 1, both have no
-// bounds, as D is the same everywhere. So from this a on the mass stays, and v = a mass/2 grows
-// only as the peak demands: to PLANE_VARIANCE_MAXIMUM at a = 1.
+// v = e/2 is that of Beckmann's distribution of the same curvature. At a = 1, D is the same
+// everywhere, and both mass and v would be infinite. From GGX_SQUARE_MAXIMUM on, the mass therefore
+// stays the same, and v = a mass/2 keeps the peak: it reaches PLANE_VARIANCE_MAXIMUM at a = 1.
 const float GGX_SQUARE_MAXIMUM = 0.9;
 const float GGX_MASS_MAXIMUM = 1.0 / (1.0 - GGX_SQUARE_MAXIMUM);
 

@@ -492,10 +492,10 @@ static void each_function_failed(void **state) {
         fail_msg("%s never failed", name);
 }
 
-/// Lavapipe of Mesa 22.3 corrupts memory when threads of its own draw, which aborts one run in
-/// dozens while other programs use the processors: lp_fence_signalled reads a fence's count without
+/// Lavapipe of Mesa 22.3 can corrupt memory when threads of its own draw, which is probably why one
+/// run in dozens was aborted on busy processors: lp_fence_signalled reads a fence's count without
 /// its mutex, so lp_setup_get_empty_scene may free the fence while the thread in lp_fence_signal
-/// has yet to unlock that mutex. Without such threads, the environment of the tests, nobody does.
+/// has yet to unlock that mutex. The tests' environment turns such threads off.
 static void leave_out_threads_of_the_driver(void) {
     setenv("LP_NUM_THREADS", "0", 0);
 }
