@@ -82,9 +82,9 @@ map_area area_of_texel(map_area area, texels_seen seen, uint index, out float we
     return texel;
 }
 
-// The mean of one layer of moment_map over what is fetched. Where every fetch is of a single texel, a
-// sampler that does not blend is faster. Where only some are, lavapipe would compute both; and at a
-// texel's centre, a blend is that texel.
+// The mean of one layer of moment_map over what is fetched. Where every fetch is of a single texel,
+// a sampler that does not blend is faster. Where only some are, lavapipe would compute both; and at
+// a texel's centre, a blend is that texel.
 vec4 moment_layer(map_area texels, uint layer) {
     if (SINGLE_TEXELS == SINGLE_TEXELS_ALWAYS)
         return textureLod(moment_texels, vec3(texels.centre, layer), texels.level - 1.0);
