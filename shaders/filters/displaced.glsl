@@ -16,6 +16,8 @@
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/displacement/transfer_light.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "lib/map/slope_stretch.glsl"
+#include "filters/displaced/relief_frame.glsl"
 #include "filters/displaced/relief_surface.glsl"
 #include "filters/displaced/seen_relief.glsl"
 
@@ -51,7 +53,7 @@ const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;
 
-// Factors of the 16 polynomials, or their values.
+// Factors of the 16 polynomials, or their values, in the map's frame.
 struct polynomials {
     vec4 terms[4];
 };
@@ -98,6 +100,10 @@ vec2 transfer_size() {
     return 2.0 * vec2(textureSize(transfer_map, 0).xy);
 }
 
+vec2 relief_texels() {
+    return transfer_size();
+}
+
 // Quads lie between the centres of texels, half a texel further than these.
 map_area transfer_area(surface_point surface) {
     vec2 size = transfer_size();
@@ -128,7 +134,7 @@ void find_near_facet(surface_point surface) {
     }
     drawn.near.surface = surface_at(surface, drawn.near.hit.position);
     drawn.near.base = filtered_material(drawn.near.surface,
-                                        relief_from_tangent(drawn.near.hit.normal),
+                                        tangent_from_relief(drawn.near.hit.normal),
                                         lobe_area(drawn.near.surface));
 }
 
@@ -180,7 +186,7 @@ polynomials polynomials_from(float y[16]) {
 
 polynomials polynomials_of(vec3 direction) {
     float y[16];
-    transfer_polynomials(direction, y);
+    transfer_polynomials(map_from_tangent(direction), y);
     return polynomials_from(y);
 }
 
@@ -473,8 +479,10 @@ facet_group facets_of_bin(surface_point surface, map_area area, uint index) {
     vec4 spread = filtered_layer(facet_map, area, 2u * index + 1u);
     float scale = 1.0 / max(place.x, 1e-6);
     vec2 mean = place.yz * scale;
-    return facet_group(place.x, facet_bin_centre(index, closure.radius) + mean,
-                       covariance_of(mean, spread.xyz * scale) + surface.curvature);
+    mat2 turn = transpose(turn_of_map());
+    vec3 places = stretched_covariance(turn, covariance_of(mean, spread.xyz * scale));
+    return facet_group(place.x, turn * (facet_bin_centre(index, closure.radius) + mean),
+                       places + surface.curvature);
 }
 
 normal_spread normals_of(facet_group facets) {
@@ -587,10 +595,13 @@ void light_of_environment(surface_point surface, out polynomials light[3]) {
     mat3 tangent_from_environment = tangent_from_environment_of(surface);
     hemisphere_moments moments = hemisphere_moments_about(
         hemisphere_moments_map, transpose(tangent_from_environment)[2]);
+    mat3 map_from_environment = mat3(map_from_tangent(tangent_from_environment[0]),
+                                     map_from_tangent(tangent_from_environment[1]),
+                                     map_from_tangent(tangent_from_environment[2]));
     float red[16], green[16], blue[16];
-    transfer_polynomials_of_light(moments.red, tangent_from_environment, red);
-    transfer_polynomials_of_light(moments.green, tangent_from_environment, green);
-    transfer_polynomials_of_light(moments.blue, tangent_from_environment, blue);
+    transfer_polynomials_of_light(moments.red, map_from_environment, red);
+    transfer_polynomials_of_light(moments.green, map_from_environment, green);
+    transfer_polynomials_of_light(moments.blue, map_from_environment, blue);
     light = polynomials[3](scaled(polynomials_from(red), environment.intensity),
                            scaled(polynomials_from(green), environment.intensity),
                            scaled(polynomials_from(blue), environment.intensity));

@@ -25,10 +25,15 @@ layout(constant_id = SPECIALISE_PATH_VERTICES) const uint PATH_VERTICES = 32;
 
 // From this vertex on, paths end at random.
 const uint FIRST_ROULETTE = 4u;
+
+vec2 relief_texels() {
+    return vec2(relief_size());
+}
+
 // A vertex of a path.
 struct path_vertex {
     relief_hit hit;
-    mat3 frame;    // of the relief's frame; z: the facet's normal
+    mat3 frame;    // the facet's tangent frame, in the relief's; z: its normal
     vec3 outgoing; // in that frame
     base_material base;
 };
@@ -71,8 +76,10 @@ vec2 next_pair(inout random_numbers numbers) {
 path_vertex vertex_at(surface_point surface, relief_hit hit, vec3 outgoing) {
     path_vertex vertex;
     vertex.hit = hit;
-    vertex.frame = mat3(rotate_from_pole(hit.normal, vec3(1.0, 0.0, 0.0)),
-                        rotate_from_pole(hit.normal, vec3(0.0, 1.0, 0.0)), hit.normal);
+    vec3 normal = tangent_from_relief(hit.normal);
+    vertex.frame = mat3(relief_from_tangent(rotate_from_pole(normal, vec3(1.0, 0.0, 0.0))),
+                        relief_from_tangent(rotate_from_pole(normal, vec3(0.0, 1.0, 0.0))),
+                        hit.normal);
     vertex.outgoing = outgoing * vertex.frame;
     surface.curvature = vec3(0.0);
     vertex.base = unfiltered_material(surface_at(surface, hit.position), vec3(0.0, 0.0, 1.0));
@@ -139,7 +146,7 @@ appearance fetch_appearance(surface_point surface) {
             hit.normal = vec3(0.0, 0.0, 1.0);
         }
         result.first = vertex_at(surface, hit, relief_from_tangent(surface.outgoing));
-        result.normal = relief_from_tangent(hit.normal);
+        result.normal = tangent_from_relief(hit.normal);
         if (hit.found)
             surface = surface_at(surface, hit.position);
     }
@@ -206,7 +213,7 @@ vec3 reflected_light(path_vertex vertex, drawn_light light) {
 vec3 light_behind(path walk, surface_point surface, float total) {
     if (walk.direction.z <= 0.0)
         return vec3(0.0);
-    vec3 radiance = texel_radiance(to_environment(surface, relief_from_tangent(walk.direction)));
+    vec3 radiance = texel_radiance(to_environment(surface, tangent_from_relief(walk.direction)));
     float density = luminance(radiance) / max(total, 1e-30);
     return walk.throughput * radiance *
            (environment.intensity * walk.density / (walk.density + density));

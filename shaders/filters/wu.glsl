@@ -12,6 +12,7 @@
 #include "filters/wu/directions.glsl"
 #include "interface/displacement/relief.h"
 #include "shading/averaged_maps.glsl"
+#include "filters/displaced/relief_frame.glsl"
 #include "filters/displaced/relief_surface.glsl"
 #include "lib/light/cube_texel.glsl"
 
@@ -26,13 +27,8 @@ layout(LOBE_DESCRIPTOR(39), std430) readonly buffer whole_block {
     float mirrors[];
 };
 
-// The relief's y runs against the tangent frame's.
-vec3 relief_from_tangent(vec3 direction) {
-    return vec3(direction.x, -direction.y, direction.z);
-}
-
-vec3 tangent_from_relief(vec3 direction) {
-    return vec3(direction.x, -direction.y, direction.z);
+vec2 relief_texels() {
+    return vec2(wu.width, wu.height);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -202,8 +198,7 @@ void find_facing(uint cell) {
     }
 }
 
-// A lobe of normals with microfacets of this width. The relief's y runs against the tangent
-// frame's.
+// A lobe of normals with microfacets of this width, in the tangent frame.
 plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
     float weight = length(lobe.xyz);
     plane_bin bin;

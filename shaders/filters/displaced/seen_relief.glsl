@@ -4,15 +4,11 @@
 // The point of a relief that is seen at a point of its carrier.
 
 #include "filters/displaced/height_field.glsl"
+#include "filters/displaced/relief_frame.glsl"
 #include "shading/surface.glsl"
 
 // The viewer is at least so high above the carrier, as a cosine.
 const float LEAST_VIEW = 0.005;
-
-// The relief's y runs against the tangent frame's.
-vec3 relief_from_tangent(vec3 direction) {
-    return vec3(direction.x, -direction.y, direction.z);
-}
 
 // The surface with the texture coordinates of a point of the relief.
 surface_point surface_at(surface_point surface, vec3 position) {
