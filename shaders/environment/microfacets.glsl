@@ -304,18 +304,24 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     return scattering_scale(albedo, f0) * sum;
 }
 
+// Microfacets about normals that vary.
+vec3 reflect_spread_microfacets(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
+                                float parameter) {
+    float share;
+    direction_lobe facing = facing_lobe(normals, surface.outgoing, share);
+    if (CLOSED)
+        share = 1.0;
+    return share * reflect_facing(surface, facing, kind, f0, parameter, true);
+}
+
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                              float parameter) {
     bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
     if (!spread_out)
         return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
-    float share;
-    direction_lobe normals = facing_lobe(
-        lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter)),
-        surface.outgoing, share);
-    if (CLOSED)
-        share = 1.0;
-    return share * reflect_facing(surface, normals, lobe.kind, f0, parameter, true);
+    direction_lobe normals =
+        lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
+    return reflect_spread_microfacets(surface, normals, lobe.kind, f0, parameter);
 }
 
 // `parameter` is that of the base lobes and determines masking. Of closed surfaces, samples include
@@ -328,6 +334,47 @@ vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, v
     return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
                ? microfacets_by_mip(surface, lobe, f0, parameter)
                : prefiltered_microfacets(surface, lobe, f0, parameter);
+}
+
+// Normals that vary by much see different parts of the sky and different horizons.
+struct normal_parts {
+    uint count;
+    float offset; // along either axis, in deviations
+};
+
+normal_parts parts_of_normals(direction_lobe normals) {
+    float variance = dot(normals.first, normals.first) + dot(normals.second, normals.second);
+    float offset = 0.8 * smoothstep(0.05, 0.3, variance);
+    return normal_parts(offset > 0.0 ? 4u : 1u, offset);
+}
+
+// One of four narrower lobes, which together have the mean and the variance of the whole.
+direction_lobe part_of_normals(direction_lobe normals, normal_parts parts, uint index) {
+    vec2 place = parts.offset * vec2((index & 1u) == 0u ? -1.0 : 1.0, index < 2u ? -1.0 : 1.0);
+    vec3 step = place.x * normals.first + place.y * normals.second;
+    float square = min(dot(step, step), 3.0);
+    vec3 axis = normalize((1.0 - 0.5 * square) * normals.axis + sqrt(1.0 - 0.25 * square) * step);
+    float narrower = sqrt(1.0 - parts.offset * parts.offset);
+    vec3 turned = (normals.axis + axis) / (1.0 + dot(normals.axis, axis));
+    return direction_lobe(axis, narrower * (normals.first - dot(normals.first, axis) * turned),
+                          narrower * (normals.second - dot(normals.second, axis) * turned));
+}
+
+// Of lobes so wide that prefiltered light is found for parts of them. For bins of moments alone:
+// mixtures of `lobes` are narrow, and the slopes of other filters reach beyond any such part.
+vec3 reflect_wide_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                              float parameter) {
+    if (sampled_by_grid() || ENVIRONMENT_METHOD == ENVIRONMENT_MIP || CLOSED ||
+        spread_of_normals(lobe.shape, parameter) <= 1e-3)
+        return reflect_microfacets(surface, lobe, f0, parameter);
+    direction_lobe normals =
+        lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
+    normal_parts parts = parts_of_normals(normals);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < parts.count; ++i)
+        sum += reflect_spread_microfacets(surface, part_of_normals(normals, parts, i), lobe.kind,
+                                          f0, parameter);
+    return sum / float(parts.count);
 }
 
 #endif
