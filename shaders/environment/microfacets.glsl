@@ -304,47 +304,17 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     return scattering_scale(albedo, f0) * sum;
 }
 
-// Microfacets about normals that vary.
-vec3 reflect_spread_microfacets(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
-                                float parameter) {
-    float share;
-    direction_lobe facing = facing_lobe(normals, surface.outgoing, share);
-    if (CLOSED)
-        share = 1.0;
-    return share * reflect_facing(surface, facing, kind, f0, parameter, true);
-}
-
-vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                             float parameter) {
-    bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
-    if (!spread_out)
-        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
-    direction_lobe normals =
-        lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
-    return reflect_spread_microfacets(surface, normals, lobe.kind, f0, parameter);
-}
-
-// `parameter` is that of the base lobes and determines masking. Of closed surfaces, samples include
-// which part of the light passes the upright facets; the other methods return what is reflected if
-// all of it does.
-vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                         float parameter) {
-    if (sampled_by_grid())
-        return sampled_microfacets(surface, lobe, f0, parameter, CLOSED);
-    return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
-               ? microfacets_by_mip(surface, lobe, f0, parameter)
-               : prefiltered_microfacets(surface, lobe, f0, parameter);
-}
-
-// Normals that vary by much see different parts of the sky and different horizons.
+// Normals that vary by much see different parts of the sky and different horizons. Very rough lobes
+// share one bin, whatever their normals. Below a roughness of 0.8, parts change means by 2 % at
+// most, and are not worth their time.
 struct normal_parts {
     uint count;
     float offset; // along either axis, in deviations
 };
 
-normal_parts parts_of_normals(direction_lobe normals) {
+normal_parts parts_of_normals(direction_lobe normals, float roughness) {
     float variance = dot(normals.first, normals.first) + dot(normals.second, normals.second);
-    float offset = 0.8 * smoothstep(0.05, 0.3, variance);
+    float offset = 0.8 * smoothstep(0.05, 0.3, variance) * smoothstep(0.8, 0.9, roughness);
     return normal_parts(offset > 0.0 ? 4u : 1u, offset);
 }
 
@@ -360,21 +330,45 @@ direction_lobe part_of_normals(direction_lobe normals, normal_parts parts, uint 
                           narrower * (normals.second - dot(normals.second, axis) * turned));
 }
 
-// Of lobes so wide that prefiltered light is found for parts of them. For bins of moments alone:
-// mixtures of `lobes` are narrow, and the slopes of other filters reach beyond any such part.
-vec3 reflect_wide_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                              float parameter) {
-    if (sampled_by_grid() || ENVIRONMENT_METHOD == ENVIRONMENT_MIP || CLOSED ||
-        spread_of_normals(lobe.shape, parameter) <= 1e-3)
-        return reflect_microfacets(surface, lobe, f0, parameter);
+// `in_parts`: where normals vary by much, light is found for four parts of them.
+vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                             float parameter, bool in_parts) {
+    bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
+    if (!spread_out)
+        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
     direction_lobe normals =
         lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
-    normal_parts parts = parts_of_normals(normals);
+    normal_parts parts = normal_parts(1u, 0.0);
+    if (in_parts)
+        parts = parts_of_normals(normals, roughness_from_parameter(DISTRIBUTION, parameter));
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < parts.count; ++i)
-        sum += reflect_spread_microfacets(surface, part_of_normals(normals, parts, i), lobe.kind,
-                                          f0, parameter);
+    for (uint i = 0u; i < parts.count; ++i) {
+        float share;
+        direction_lobe facing =
+            facing_lobe(in_parts ? part_of_normals(normals, parts, i) : normals, surface.outgoing,
+                        share);
+        if (CLOSED)
+            share = 1.0;
+        sum += share * reflect_facing(surface, facing, lobe.kind, f0, parameter, true);
+    }
     return sum / float(parts.count);
+}
+
+// `parameter` is that of the base lobes and determines masking. Of closed surfaces, samples include
+// which part of the light passes the upright facets; the other methods return what is reflected if
+// all of it does. `in_parts`: see prefiltered_microfacets.
+vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter, bool in_parts) {
+    if (sampled_by_grid())
+        return sampled_microfacets(surface, lobe, f0, parameter, CLOSED);
+    return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
+               ? microfacets_by_mip(surface, lobe, f0, parameter)
+               : prefiltered_microfacets(surface, lobe, f0, parameter, in_parts);
+}
+
+vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
+                         float parameter) {
+    return reflect_microfacets(surface, lobe, f0, parameter, false);
 }
 
 #endif

@@ -1,13 +1,14 @@
 #ifndef RELIEF_FRAME_GLSL
 #define RELIEF_FRAME_GLSL
 
-// How a relief lies in the tangent frame of its carrier. A transform of the height map's texture
-// coordinates may turn and mirror it there. Its texels are square in the world, and the tangent
-// runs along increasing u, before that transform.
+// How a relief lies in the tangent frame of its carrier: a transform of the height map's texture
+// coordinates may turn or mirror it. Texels are taken to be square in the world. The tangent runs
+// along increasing u before that transform.
 
 #include "shading/surface.glsl"
 
-vec2 relief_texels(); // of the height map, along its axes: every filter of reliefs says
+// The size of the height map. Each filter that draws reliefs defines it.
+vec2 relief_texels();
 
 // From the tangent frame to that of the map: x along its columns, y against its rows.
 mat2 turn_of_map() {

@@ -267,8 +267,9 @@ vec3 reflect_bin(surface_point surface, plane_bin bin, vec3 f0) {
     float parameter = parameter_of_plane_variance(DISTRIBUTION, bin.variance);
     float excess = bin.variance - 1.0 / base_lobe_concentration(DISTRIBUTION, parameter);
     vec3 covariance = bin.covariance - excess * plane_distortion(bin.mean);
-    return reflect_wide_microfacets(
-        surface, half_vector_distribution(lobe_of_bin(bin, covariance), kind), f0, parameter);
+    half_vector_distribution lobe =
+        half_vector_distribution(lobe_of_bin(bin, covariance), kind);
+    return reflect_microfacets(surface, lobe, f0, parameter, true);
 }
 #endif
 

@@ -420,7 +420,7 @@ static void coming_nearer_finds_no_transfer_again(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// `waves`, as a map holds it that lies a quarter turn about, or mirrored, on the plane.
+/// `waves` as stored in a map that lies turned by a quarter, or mirrored, on the plane.
 static double turned_waves(uint32_t column, uint32_t row) {
     return waves(WIDTH - 1 - row, column);
 }
@@ -429,8 +429,8 @@ static double mirrored_waves(uint32_t column, uint32_t row) {
     return waves(WIDTH - 1 - column, row);
 }
 
-/// The mean under a sun at the relief's side, of a map whose texture coordinates are transformed by
-/// this matrix.
+/// The mean radiance under a sun to one side, of a map whose texture coordinates this matrix
+/// transforms.
 static double draw_transformed(fixture *f, const char *filter, relief_height height,
                                const float transform[2][2]) {
     static const double outgoing[] = {0.6, 0.36, 0.7141428}, incoming[] = {-0.48, 0.8, 0.36};
@@ -444,8 +444,8 @@ static double draw_transformed(fixture *f, const char *filter, relief_height hei
     return found;
 }
 
-/// Where the map is turned and its texture coordinates turn it back, it is the same relief. Where a
-/// filter forgets that they do, one of the two is 7 to 10 % off.
+/// A turned map whose texture coordinates turn it back is the same relief. For a filter that turns
+/// only the texels, one of the two is 7 to 10 % off.
 static void transforms_of_coordinates_turn_reliefs(void **state) {
     static const char *const filters[] = {"displaced", "wu", "displaced-reference"};
     static const double bounds[] = {0.012, 0.015, 0.02};

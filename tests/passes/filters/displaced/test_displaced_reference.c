@@ -269,6 +269,26 @@ static void extreme_reliefs(void **state) {
     assert_true(found >= 0 && found < 0.4);
 }
 
+static double no_height(uint32_t column, uint32_t row) {
+    (void)column;
+    (void)row;
+    return 0;
+}
+
+/// Leaning lobes lean as they do without a relief. (Mirrored, this one would be almost black.)
+static void lobes_lean_as_on_a_plane(void **state) {
+    static const double outgoing[] = {0.3, 0.2, 0.9327379}, incoming[] = {-0.2, 0.6, 0.7745967};
+    lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 10);
+    material.lobes[0].direction[1] = 0.5f;
+    material.lobes[0].direction[2] = 0.8660254f;
+    lobe_scene *scene = relief_plane(&material, relief_map(8, 8, no_height), outgoing, 1);
+    relief_plane_add_sun(scene, incoming, 1);
+    const double expected = relief_plane_draw(*state, scene, "direct", NULL, 64);
+    const double found = relief_plane_draw(*state, scene, "displaced-reference", NULL, 64);
+    check(found, expected, 1e-4 * expected, "leaning lobe", 30);
+    lobe_scene_destroy(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(orders_of_a_valley),
@@ -280,6 +300,7 @@ int main(void) {
         cmocka_unit_test(odd_maps_are_those_of_small_steps),
         cmocka_unit_test(heights_that_are_no_numbers_are_refused),
         cmocka_unit_test(extreme_reliefs),
+        cmocka_unit_test(lobes_lean_as_on_a_plane),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
