@@ -171,6 +171,8 @@ static known_member known[] = {
     MEMBER(height_field_constants, last_level, 2),
     MEMBER(height_field_constants, scale, 3),
     MEMBER(height_field_constants, levels, 4),
+    MEMBER(height_field_constants, least_value, 5),
+    MEMBER(height_field_constants, largest_value, 6),
     MEMBER(transfer_basis_constants, functions, 0),
     MEMBER(transfer_basis_constants, integrals, 1),
     MEMBER(transfer_closure_constants, basis, 0),

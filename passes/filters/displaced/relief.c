@@ -80,7 +80,8 @@ relief passes_relief(const filter_context *context, uint32_t index, bool retaine
     const device_map *map = &material->maps[MAP_HEIGHT];
     relief relief = {.constants = {.width = map->width,
                                    .height = map->height,
-                                   .scale = material->material->height_scale * (float)map->width}};
+                                   .scale = material->material->height_scale * (float)map->width,
+                                   .largest_value = 1}};
     relief.bytes = place_levels(&relief.constants) * sizeof(float);
     relief.heights = passes_device_map_import(context->graph, context->scene, material, MAP_HEIGHT);
     declare(context, index, retained, &relief);

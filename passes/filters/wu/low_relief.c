@@ -8,6 +8,8 @@ static relief declare_low(const wu_build *build, const struct wu_level *level) {
     relief low = {.constants = {.width = level->width,
                                 .height = level->height,
                                 .scale = 1,
+                                .least_value = -HEIGHT_MAXIMUM,
+                                .largest_value = HEIGHT_MAXIMUM,
                                 .levels = {{.width = level->width, .height = level->height}}}};
     low.block = lobe_graph_upload(build->graph, "coarse height field", &low.constants,
                                   sizeof low.constants);

@@ -43,17 +43,20 @@ ivec2 first_period(ivec2 quad) {
 // ---------------------------------------------------------------------------------------------
 // Quads and facets
 
+float height_of(float texel) {
+    return height_of_texel(texel, relief.scale, relief.least_value, relief.largest_value);
+}
+
 // The heights of a quad's corners: of its vertex, the next along x, along y, and along both.
 // `first`: the quad, in the first period; `size`: of that.
 vec4 corner_heights(ivec2 first, ivec2 size) {
     vec4 texels = textureGather(height_map, vec2(first + 1) / vec2(size));
-    return vec4(height_of_texel(texels.w, relief.scale), height_of_texel(texels.z, relief.scale),
-                height_of_texel(texels.x, relief.scale), height_of_texel(texels.y, relief.scale));
+    return vec4(height_of(texels.w), height_of(texels.z), height_of(texels.x), height_of(texels.y));
 }
 
 // `texel`: in the first period.
 float vertex_height(ivec2 texel) {
-    return height_of_texel(texelFetch(height_map, texel, 0).r, relief.scale);
+    return height_of(texelFetch(height_map, texel, 0).r);
 }
 
 vec4 quad_heights(ivec2 quad) {

@@ -20,7 +20,8 @@ uint vertex(uint i, uint size) {
 }
 
 float value_at(height_level source, uint x, uint y) {
-    return LEVEL == 1u ? height_of_texel(texelFetch(height_map, ivec2(x, y), 0).r, relief.scale)
+    return LEVEL == 1u ? height_of_texel(texelFetch(height_map, ivec2(x, y), 0).r, relief.scale,
+                                         relief.least_value, relief.largest_value)
                        : maxima[source.offset + y * source.width + x];
 }
 

@@ -15,7 +15,8 @@ layout(set = 0, binding = 2) uniform sampler2D height_map;
 layout(set = 0, binding = 3, std430) writeonly buffer row_block { vec4 rows[]; };
 
 float height_at(uint x, uint y) {
-    return height_of_texel(texelFetch(height_map, ivec2(x, y), 0).r, relief.scale);
+    return height_of_texel(texelFetch(height_map, ivec2(x, y), 0).r, relief.scale,
+                           relief.least_value, relief.largest_value);
 }
 
 float distance_of(float slope_x, float slope_y) {

@@ -7,8 +7,8 @@
 #include "lib/number/finite.glsl"
 
 // In widths of a texel. What is no number is 0.
-float height_of_texel(float texel, float scale) {
-    float height = scale * texel;
+float height_of_texel(float texel, float scale, float least, float largest) {
+    float height = isnan(texel) ? 0.0 : scale * clamp(texel, least, largest);
     return is_finite(height) ? clamp(height, -HEIGHT_MAXIMUM, HEIGHT_MAXIMUM) : 0.0;
 }
 

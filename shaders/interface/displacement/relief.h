@@ -31,12 +31,18 @@ struct height_field_constants {
     uint last_level;                    // of one value
     float scale;                        // of the map's values, widths of a texel
     height_level levels[HEIGHT_LEVELS]; // level 0: the texels
+    float least_value;                  // of the map: values beyond these count as the ends
+    float largest_value;
+    uint padding_x;
+    uint padding_y;
 };
-INTERFACE_SIZE(height_field_constants, 144)
+INTERFACE_SIZE(height_field_constants, 160)
 INTERFACE_OFFSET(height_field_constants, height, 4)
 INTERFACE_OFFSET(height_field_constants, last_level, 8)
 INTERFACE_OFFSET(height_field_constants, scale, 12)
 INTERFACE_OFFSET(height_field_constants, levels, 16)
+INTERFACE_OFFSET(height_field_constants, least_value, 144)
+INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 
 // Heights beyond this, in widths of a texel, are cut off.
 #define HEIGHT_MAXIMUM 65536.0

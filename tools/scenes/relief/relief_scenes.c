@@ -26,8 +26,9 @@ enum { TEXELS = 256, THREAD = 16, STONES = 8, STUDS = 8 };
 // ---------------------------------------------------------------------------------------------
 // Heights, as fractions of the map's width, and colours
 
+/// Maps end at 0 and 1, and reliefs go below their ground.
 static void store_height(void *texel, double texels) {
-    *(float *)texel = (float)(texels / TEXELS);
+    *(float *)texel = (float)(0.5 + texels / TEXELS);
 }
 
 static void store_colour(uint8_t *texel, const double colour[3], double factor) {

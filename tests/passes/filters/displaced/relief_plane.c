@@ -4,11 +4,23 @@
 
 enum { SIDE = 8 };
 
+/// What the range [0, 1] of a map spans, in widths of a texel: the precision of floats is 6e-5.
+static const float relief_range = 1024;
+
+float relief_map_value(double height) {
+    return (float)(0.5 + height / (double)relief_range);
+}
+
 lobe_image relief_map(uint32_t width, uint32_t height, relief_height height_at) {
     lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, width, height);
     for (uint32_t i = 0; i < width * height; i++)
-        ((float *)image.texels)[4 * i] = (float)height_at(i % width, i / width);
+        ((float *)image.texels)[4 * i] = relief_map_value(height_at(i % width, i / width));
     return image;
+}
+
+double relief_map_height(const lobe_image *map, uint32_t column, uint32_t row) {
+    const size_t texel = (size_t)(row % map->height) * map->width + column % map->width;
+    return ((double)((const float *)map->texels)[4 * texel] - 0.5) * (double)relief_range;
 }
 
 lobe_material relief_material(double albedo) {
@@ -30,7 +42,7 @@ lobe_scene *relief_plane(const lobe_material *material, lobe_image map, const do
                          double tiles) {
     lobe_scene *scene = scene_begin();
     lobe_material mapped = *material;
-    mapped.height_scale = 1 / (float)map.width;
+    mapped.height_scale = relief_range / (float)map.width;
     mapped.height_map = scene_add_map(scene, map);
     // The picture shows a tenth of the square's width, and more of it along the view.
     scene_add_square(scene, &mapped, 10 * tiles, NULL);

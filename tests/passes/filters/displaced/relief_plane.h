@@ -10,8 +10,12 @@
 
 /// Heights in widths of a texel, of a map that repeats.
 typedef double (*relief_height)(uint32_t column, uint32_t row);
-/// A map of `width` x `height` texels, to be used with a height_scale of 1 / width.
+/// A map of `width` x `height` texels for relief_plane, of heights between -512 and 512.
 lobe_image relief_map(uint32_t width, uint32_t height, relief_height height_at);
+/// What such a map holds in red for a height.
+float relief_map_value(double height);
+/// The height that such a map has at a texel, which may lie beyond its first period.
+double relief_map_height(const lobe_image *map, uint32_t column, uint32_t row);
 
 /// Lambert's material, of this albedo: half-vector lobes of no colour.
 lobe_material relief_material(double albedo);

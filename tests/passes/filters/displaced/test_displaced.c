@@ -461,8 +461,44 @@ static void transforms_of_coordinates_turn_reliefs(void **state) {
     }
 }
 
+static double spikes(uint32_t column, uint32_t row, double height) {
+    const bool is_spike = column % 8 == 0 && row % 8 == 0;
+    return is_spike ? copysign(height, (double)column - 16) : 32 * waves(column, row);
+}
+
+static double spikes_to_the_ends(uint32_t column, uint32_t row) {
+    return spikes(column, row, 512);
+}
+
+static double spikes_beyond_the_ends(uint32_t column, uint32_t row) {
+    return spikes(column, row, 1e30);
+}
+
+/// Spikes of 8 texels.
+static double draw_spikes(fixture *f, const char *filter, relief_height height) {
+    static const double outgoing[] = {0.6, 0.36, 0.7141428}, incoming[] = {-0.48, 0.8, 0.36};
+    lobe_scene *scene = far_plane(0.8, relief_map(WIDTH, HEIGHT, height), outgoing);
+    scene->materials[0].height_scale /= 64;
+    relief_plane_add_sun(scene, incoming, 1);
+    const double found = relief_plane_draw(f, scene, filter, NULL, 64);
+    lobe_scene_destroy(&scene);
+    return found;
+}
+
+/// As lobe_material.height_map says, and as displaced geometry has them. (`wu` reads heights as
+/// these do.)
+static void values_beyond_the_range_count_as_its_ends(void **state) {
+    static const char *const filters[] = {"displaced", "displaced-reference"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        const double expected = draw_spikes(*state, filters[i], spikes_to_the_ends);
+        const double found = draw_spikes(*state, filters[i], spikes_beyond_the_ends);
+        check(found, expected, 1e-5 * expected, filters[i], 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_beyond_the_range_count_as_its_ends),
         cmocka_unit_test(transforms_of_coordinates_turn_reliefs),
         cmocka_unit_test(a_level_map_is_lambertian),
         cmocka_unit_test(white_reliefs_reflect_all_light),

@@ -48,7 +48,8 @@ static cell_data *allocate_data(const lobe_image *map, uint32_t cells, size_t *s
 
 static lobe_scene *scene_of(const lobe_image *map) {
     lobe_image copy = map_image(LOBE_FORMAT_RGBA32_FLOAT, map->width, map->height);
-    memcpy(copy.texels, map->texels, (size_t)16 * map->width * map->height);
+    for (size_t i = 0; i < 4 * (size_t)map->width * map->height; i += 4)
+        ((float *)copy.texels)[i] = relief_map_value((double)((const float *)map->texels)[i]);
     const lobe_material material = relief_material(albedo);
     lobe_scene *scene = relief_plane(&material, copy, (const double[]){0, 0, 1}, 1);
     scene_end(scene);

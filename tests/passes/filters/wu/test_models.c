@@ -50,11 +50,6 @@ static double rough(uint32_t column, uint32_t row) {
            1.5 * (double)(mixed >> 8) / (1 << 24);
 }
 
-static double height_of(const lobe_image *map, uint32_t column, uint32_t row) {
-    const size_t texel = (size_t)(row % map->height) * map->width + column % map->width;
-    return (double)((const float *)map->texels)[4 * texel];
-}
-
 enum { MOST_CELLS = 256 };
 
 /// Mean slopes of the two triangles of each quad under a cell.
@@ -66,8 +61,9 @@ static void mean_slope(const lobe_image *map, const struct wu_level *level, uint
     slope[0] = slope[1] = 0;
     for (uint32_t j = first[1]; j < last[1]; j++) {
         for (uint32_t i = first[0]; i < last[0]; i++) {
-            const double h00 = height_of(map, i, j), h10 = height_of(map, i + 1, j),
-                         h01 = height_of(map, i, j + 1), h11 = height_of(map, i + 1, j + 1);
+            const double h00 = relief_map_height(map, i, j), h10 = relief_map_height(map, i + 1, j),
+                         h01 = relief_map_height(map, i, j + 1),
+                         h11 = relief_map_height(map, i + 1, j + 1);
             slope[0] += ((h10 - h00) + (h11 - h01)) / 2;
             slope[1] += ((h11 - h10) + (h01 - h00)) / 2;
         }
