@@ -151,6 +151,21 @@ vec3 reflected_by_near_facet(vec3 outgoing, vec3 incoming) {
                                 : vec3(0.0);
 }
 
+// The carrier's point, moved towards the facet by the share that it has of the pixel.
+surface_point seen_surface(surface_point surface) {
+    if (drawn.near.share > 0.0)
+        surface.coordinates += drawn.near.share *
+                               (drawn.near.surface.coordinates - surface.coordinates);
+    return surface;
+}
+
+appearance fetch_appearance(surface_point surface) {
+    if (!NEAR || !has_diffuse())
+        return fetch_averaged_appearance(surface, surface);
+    find_near_facet(surface);
+    return fetch_averaged_appearance(surface, seen_surface(surface));
+}
+
 // ---------------------------------------------------------------------------------------------
 // Cells
 
@@ -370,15 +385,7 @@ void divide_form(bool lit) {
 
 void gather_relief(surface_point surface, bool lit) {
     drawn.viewer = viewer_of(surface);
-    map_area at = transfer_area(surface);
-    if (NEAR) {
-        find_near_facet(surface);
-        if (drawn.near.share > 0.0)
-            at.centre += drawn.near.share *
-                         map_coordinates(MAP_HEIGHT, drawn.near.surface.coordinates -
-                                                         surface.coordinates, 0.0);
-    }
-    fetch_transfer(at);
+    fetch_transfer(transfer_area(NEAR ? seen_surface(surface) : surface));
     polynomials viewer = polynomials_of(drawn.viewer);
     float functions[ORDER];
     in_functions(viewer, functions);

@@ -11,6 +11,10 @@
 
 #include "shading/lights/no_gathering.glsl"
 
+appearance fetch_appearance(surface_point surface) {
+    return fetch_averaged_appearance(surface, surface);
+}
+
 vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incoming, uint light) {
     return evaluate_base_material(widened_material(fetched), fetched.mean_normal, surface.outgoing,
                                   incoming);

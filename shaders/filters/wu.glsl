@@ -317,6 +317,10 @@ vec3 mirrored_part(base_material base) {
     return MODEL == MODEL_MICROFACET ? clamp(base.specular, 0.0, 1.0) : vec3(0.0);
 }
 
+appearance fetch_appearance(surface_point surface) {
+    return fetch_averaged_appearance(surface, surface);
+}
+
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
     if (!has_diffuse())
         return;

@@ -62,7 +62,8 @@ vec4 fetch_averages(map_area area, surface_point surface) {
     return sum;
 }
 
-appearance fetch_appearance(surface_point surface) {
+// `seen`: where a mask and emission are read.
+appearance fetch_averaged_appearance(surface_point surface, surface_point seen) {
     appearance result;
     map_area area = lobe_area(surface);
     vec4 averages = FILTERED_LOBES ? fetch_averages(area, surface) : vec4(0.0);
@@ -72,8 +73,8 @@ appearance fetch_appearance(surface_point surface) {
     result.base = filtered_material(surface, result.normal, area);
     if (FILTERED_LOBES)
         result.base.width = width_from_average(averages.w);
-    result.kept = !ALPHA_MASK || keeps_footprint(surface);
-    result.emission = EMISSION ? filtered_emission(surface, area) : vec3(0.0);
+    result.kept = !ALPHA_MASK || keeps_footprint(seen);
+    result.emission = EMISSION ? filtered_emission(seen, lobe_area(seen)) : vec3(0.0);
     result.lobe_count = float(LOBE_COUNT);
     result.level = FILTERED_LOBES ? area.level : 0.0;
     return result;

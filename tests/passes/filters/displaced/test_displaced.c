@@ -420,6 +420,58 @@ static void coming_nearer_finds_no_transfer_again(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Radiance of the background behind a mask, and more than a facet reflects.
+static const float BEHIND = 16, MOST_REFLECTED = 0.5F;
+
+/// Stripes across the texels of `waves`, cut away where alpha is 0.
+static lobe_image striped_mask(void) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTH, HEIGHT);
+    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++)
+        ((float *)image.texels)[4 * i + 3] = (float)(i / WIDTH / 4 % 2);
+    return image;
+}
+
+/// Of a masked relief before a bright background, two pixels a texel.
+static lobe_frame draw_masked(fixture *f, const char *filter, uint32_t samples) {
+    double outgoing[3];
+    slope_plane_direction(55, 1.3, outgoing);
+    const lobe_material material = relief_material(0.8);
+    lobe_scene *scene =
+        relief_plane(&material, relief_map(WIDTH, HEIGHT, waves), outgoing, 16.0 / WIDTH);
+    scene->materials[0].base_colour_map = scene_add_map(scene, striped_mask());
+    scene->materials[0].alpha_mask = true;
+    scene->materials[0].alpha_cutoff = 0.5F;
+    for (int i = 0; i < 3; i++)
+        scene->background[i] = BEHIND;
+    relief_plane_add_sun(scene, outgoing, 1);
+    scene_end(scene);
+    const picture_request request = {
+        .filter = filter, .width = 32, .height = 32, .samples = samples};
+    lobe_frame frame = draw_scene(f, scene, &request);
+    lobe_scene_destroy(&scene);
+    return frame;
+}
+
+/// From near a mask cuts the facets that are seen, which lie beside the carrier's points. Pixels at
+/// the mask's edges, of which the reference sees both sides, do not count.
+static void masks_cut_the_facets_that_are_seen(void **state) {
+    lobe_frame reference = draw_masked(*state, "displaced-reference", 16);
+    lobe_frame found = draw_masked(*state, "displaced", 1);
+    uint32_t kept = 0, cut = 0, wrong = 0;
+    for (uint32_t i = 0; i < 32 * 32; i++) {
+        const float expected = pixel_at(&reference.radiance, i % 32, i / 32)[1];
+        const bool is_cut = pixel_at(&found.radiance, i % 32, i / 32)[1] == BEHIND;
+        if (expected < MOST_REFLECTED || expected == BEHIND) {
+            *(expected == BEHIND ? &cut : &kept) += 1;
+            wrong += is_cut != (expected == BEHIND);
+        }
+    }
+    lobe_frame_free(&reference);
+    lobe_frame_free(&found);
+    if (!(kept > 200 && cut > 200 && wrong < 10))
+        fail_msg("%u of %u and %u pixels", wrong, kept, cut);
+}
+
 /// `waves` as stored in a map that lies turned by a quarter, or mirrored, on the plane.
 static double turned_waves(uint32_t column, uint32_t row) {
     return waves(WIDTH - 1 - row, column);
@@ -500,6 +552,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_beyond_the_range_count_as_its_ends),
         cmocka_unit_test(transforms_of_coordinates_turn_reliefs),
+        cmocka_unit_test(masks_cut_the_facets_that_are_seen),
         cmocka_unit_test(a_level_map_is_lambertian),
         cmocka_unit_test(white_reliefs_reflect_all_light),
         cmocka_unit_test(valleys_reflect_their_closed_form),
