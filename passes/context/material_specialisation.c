@@ -48,6 +48,6 @@ void passes_lobes_specialise(const device_material *material, uint32_t map_bits,
     passes_specialise(list, SPECIALISE_SECOND_COORDINATES, passes_second_coordinates(material));
     passes_specialise(list, SPECIALISE_NORMALS, material->maps[MAP_NORMAL].normals);
     passes_specialise(list, SPECIALISE_NORMAL_CONCENTRATION, source->normal_concentration > 0);
-    passes_specialise(list, SPECIALISE_ALPHA_MASK, source->alpha_mask);
+    passes_specialise(list, SPECIALISE_ALPHA_MASK, material->masked);
     passes_specialise(list, SPECIALISE_METALLIC_MAP, material->metallic_varies);
 }

@@ -204,7 +204,7 @@ static void bind_mask_layers(const filter_context *context, uint32_t index, bool
 
 static lobe_resource filtered_map(const filter_context *context, uint32_t index, uint32_t map) {
     const device_material *material = &context->scene->materials[index];
-    if (map != MAP_BASE_COLOUR || !material->material->alpha_mask)
+    if (map != MAP_BASE_COLOUR || !material->masked)
         return filtered_image(context, material, map);
     return passes_mask_varies(context->scene, material)
                ? lobe_graph_import_texture(context->graph, context->scene->white)
@@ -224,7 +224,7 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
 }
 
 bool passes_filtered_map_is_image(const device_material *material, uint32_t map) {
-    const bool masked = map == MAP_BASE_COLOUR && material->material->alpha_mask;
+    const bool masked = map == MAP_BASE_COLOUR && material->masked;
     return filtered_names[map] && !masked && needs_filtering(material, map);
 }
 

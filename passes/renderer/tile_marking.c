@@ -133,7 +133,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         .fragment_shader = "maps/tile_marking.frag",
         .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
         .depth_test = true,
-        .depth_write = !material->material->alpha_mask,
+        .depth_write = !material->masked,
         .constants = &constants,
         .constants_size = sizeof constants,
         .specialisation = list.items,

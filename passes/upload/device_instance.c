@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/frame_check.h"
 #include "passes/upload/heights/map_width.h"
 #include "passes/upload/material_maps.h"
@@ -142,6 +143,14 @@ static void find_equal_sets(const device_scene *scene, device_material *material
     material->parameter_version += material->equal_sets != before;
 }
 
+/// The same of where this changes.
+static void find_mask(device_scene *scene, device_material *material) {
+    const bool before = material->masked;
+    material->masked = (before && scene->keeps_conclusions) || passes_mask_may_cut(scene, material);
+    material->version += material->masked != before;
+    material->parameter_version += material->masked != before;
+}
+
 void passes_device_scene_link_instances(device_scene *scene) {
     scene->instance_count = scene->scene->instance_count;
     for (size_t i = 0; i < scene->scene->material_count; i++)
@@ -155,7 +164,10 @@ void passes_device_scene_link_instances(device_scene *scene) {
         *first = (uint32_t)i + 1;
         scene->measures[instance->mesh].has_instances = true;
     }
-    for (size_t i = 0; i < scene->scene->material_count; i++)
-        if (scene->materials[i].first_instance > 0)
+    for (size_t i = 0; i < scene->scene->material_count; i++) {
+        if (scene->materials[i].first_instance > 0) {
             find_equal_sets(scene, &scene->materials[i]);
+            find_mask(scene, &scene->materials[i]);
+        }
+    }
 }

@@ -27,6 +27,12 @@ typedef struct image_metal {
     float value;
 } image_metal;
 
+/// The least alpha of an image's texels, where a material uses it as a mask.
+typedef struct image_alpha {
+    bool known; ///< since the device has these texels
+    float least;
+} image_alpha;
+
 /// Whether diffuse colours go with normals (passes/maps/colours/colour_correlation.h).
 typedef struct colour_correlation {
     bool asked; ///< false: no filter has
@@ -68,6 +74,9 @@ typedef struct device_material {
     lobe_texture_use height; ///< a copy of the height map's: not read by shading
     float height_scale;
     colour_correlation colours;
+    /// It has a mask (lobe_material.alpha_mask) that may cut something away: one that keeps all is
+    /// drawn as if there were none (passes/upload/colours/mask_alpha.h).
+    bool masked;
     bool metallic_varies; ///< the width map determines where the material is metal
     float metallic;       ///< its metallic factor, times the map's where that is constant
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
@@ -127,6 +136,7 @@ typedef struct device_scene {
     lobe_texture *white;             ///< one white texel, where a map is missing
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used
     image_metal *metals;             ///< one for each image
+    image_alpha *alphas;             ///< one for each image
     uint32_t *image_versions;        ///< one for each image; increase with each change of texels
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;

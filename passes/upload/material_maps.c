@@ -122,7 +122,7 @@ bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32
 
 bool passes_lobes_are_masked(const device_material *material) {
     const device_map *mask = &material->maps[MAP_BASE_COLOUR];
-    return material->material->alpha_mask && mask->use && mask->width * mask->height > 1 &&
+    return material->masked && mask->use && mask->width * mask->height > 1 &&
            passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR);
 }
 

@@ -202,6 +202,7 @@ static lobe_result update_texels(const scene_update *update, size_t n) {
     const uint32_t index = update->changes->images[n];
     image_metal *metal = &update->scene->metals[index];
     metal->known = metal->varies && update->scene->keeps_conclusions;
+    update->scene->alphas[index].known = false;
     if (!keeps_texture(update, index))
         return LOBE_OK;
     return lobe_texture_update_part(update->scene->images[index],

@@ -28,6 +28,8 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->images);
     result->metals =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->metals);
+    result->alphas =
+        lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->alphas);
     result->image_versions =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->image_versions);
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
@@ -49,10 +51,10 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
-    return result->images && result->metals && result->image_versions && result->given &&
-           result->given_waves && result->given_vertices && result->previous_vertices &&
-           result->deformed && result->deformations && result->materials && result->vertices &&
-           result->indices && result->measures &&
+    return result->images && result->metals && result->alphas && result->image_versions &&
+           result->given && result->given_waves && result->given_vertices &&
+           result->previous_vertices && result->deformed && result->deformations &&
+           result->materials && result->vertices && result->indices && result->measures &&
            passes_device_scene_reserve_instances(result, scene->instance_count);
 }
 
@@ -130,6 +132,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_texture_destroy(&s->environment);
     lobe_release(s->images);
     lobe_release(s->metals);
+    lobe_release(s->alphas);
     lobe_release(s->image_versions);
     lobe_release(s->given);
     lobe_release(s->given_waves);

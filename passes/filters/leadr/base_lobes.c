@@ -13,8 +13,8 @@ static uint32_t variation_of(const device_material *material) {
         widths->width * widths->height == 1)
         return BASE_LOBES_ALIKE;
     // Under a mask, colours are those of what it keeps.
-    const bool coloured = material->metallic_varies && !material->material->alpha_mask &&
-                          passes_bins_may_have_colours(material);
+    const bool coloured =
+        material->metallic_varies && !material->masked && passes_bins_may_have_colours(material);
     return coloured ? BASE_LOBES_COLOURED : BASE_LOBES_VARY;
 }
 

@@ -43,7 +43,7 @@ static colour_correlation question_of(const device_scene *scene, const device_ma
                                    .normal_scale = material->material->normal_scale,
                                    .height_scale = material->height_scale,
                                    .metallic = material->metallic};
-    if (material->material->alpha_mask) {
+    if (material->masked) {
         question.alpha = passes_mask_alpha(scene, material);
         question.cutoff = material->material->alpha_cutoff;
     }

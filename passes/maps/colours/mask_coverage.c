@@ -32,7 +32,7 @@ struct mask_thresholds passes_mask_thresholds(const device_scene *scene,
 }
 
 bool passes_mask_varies(const device_scene *scene, const device_material *material) {
-    return material->material->alpha_mask && passes_mask_thresholds(scene, material).last_layer > 0;
+    return material->masked && passes_mask_thresholds(scene, material).last_layer > 0;
 }
 
 static struct mask_constants constants_of(const device_scene *scene,

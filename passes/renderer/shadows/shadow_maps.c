@@ -54,7 +54,7 @@ static void draw_batch(const filter_context *context, lobe_pass *pass,
                        const instance_batch *batch) {
     const device_scene *scene = context->scene;
     const device_material *material = &scene->materials[scene->instances[batch->instance].material];
-    const bool masked = material->material->alpha_mask;
+    const bool masked = material->masked;
     const struct draw_constants constants = {.first_instance = batch->first};
     lobe_binding bindings[3 + MAP_SHADING] = {
         {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_LIGHT)},

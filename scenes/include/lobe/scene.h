@@ -159,7 +159,9 @@ typedef struct lobe_material {
     lobe_texture_use occlusion_map; ///< red; scales indirect light only
     float occlusion_strength;       ///< [0, 1]
     bool double_sided;
-    bool alpha_mask; ///< discard below alpha_cutoff; otherwise opaque
+    /// Discard below alpha_cutoff; otherwise opaque. A mask that keeps all, as far as the host can
+    /// read its map, is drawn as if there were none.
+    bool alpha_mask;
     float alpha_cutoff;
 
     // Microfacet.

@@ -241,8 +241,14 @@ static void holes_lend_no_normals(void **state) {
     }
 }
 
-/// White and rough, with slight waves and holes of half of its area.
-static lobe_scene *square_with_waves(bool masked) {
+/// Of a chequered map, for half of the texels.
+static void set_alpha(lobe_image *colours, unsigned char alpha) {
+    for (uint32_t i = 0; i < 256; i++)
+        ((unsigned char *)colours->texels)[4 * i + 3] = (i + i / 16) % 2 ? 255 : alpha;
+}
+
+/// White and rough, with slight waves; half of its area has this alpha.
+static lobe_scene *square_with_waves(bool masked, unsigned char alpha) {
     lobe_scene *scene = scene_begin();
     lobe_material material;
     lobe_material_default(&material);
@@ -250,16 +256,15 @@ static lobe_scene *square_with_waves(bool masked) {
     material.double_sided = true;
     material.alpha_mask = masked;
     lobe_image normals = map_image(LOBE_FORMAT_RGBA32_FLOAT, 16, 16);
-    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_UNORM, 16, 16);
+    lobe_image colours = map_image(LOBE_FORMAT_RGBA8_SRGB, 16, 16);
     for (uint32_t i = 0; i < 256; i++) {
         float *normal = (float *)normals.texels + (size_t)4 * i;
         normal[0] = 0.5f + 0.05f * (float)sin(M_PI / 8 * (i % 16));
         normal[1] = 0.5f;
         normal[2] = 1;
-        unsigned char *colour = (unsigned char *)colours.texels + (size_t)4 * i;
-        memset(colour, 255, 3);
-        colour[3] = (i + i / 16) % 2 ? 255 : 0;
+        memset((unsigned char *)colours.texels + (size_t)4 * i, 255, 4);
     }
+    set_alpha(&colours, alpha);
     material.normal_map = scene_add_map(scene, normals);
     material.base_colour_map = scene_add_map(scene, colours);
     material.normal_map.nearest = material.base_colour_map.nearest = true;
@@ -276,7 +281,7 @@ static void kept_pixels_are_as_bright(void **state) {
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
         double means[2][3];
         for (int masked = 0; masked < 2; masked++) {
-            lobe_scene *scene = square_with_waves(masked);
+            lobe_scene *scene = square_with_waves(masked, 0);
             picture_request request = {.filter = filters[i], .width = 32, .height = 32};
             lobe_frame frame = draw_scene(*state, scene, &request);
             mean_of_picture(&frame.radiance, means[masked]);
@@ -322,6 +327,55 @@ static void coverage_is_built_once_and_only_for_masks(void **state) {
     }
 }
 
+static void change_alpha(fixture *f, lobe_scene *scene, unsigned char alpha) {
+    const uint32_t image = (uint32_t)scene->materials[0].base_colour_map.image;
+    set_alpha(&scene->images[image].image, alpha);
+    assert_int_equal(lobe_renderer_update_scene(
+                         f->renderer, &(lobe_scene_changes){.images = &image, .image_count = 1}),
+                     LOBE_OK);
+}
+
+static void check_equal(const lobe_frame *frame, const lobe_frame *expected) {
+    assert_memory_equal(frame->radiance.texels, expected->radiance.texels,
+                        (size_t)16 * frame->radiance.width * frame->radiance.height);
+}
+
+/// A mask that keeps all costs nothing and changes nothing, until its texels, its cutoff or its
+/// vertices cut something away.
+static void masks_that_keep_all_are_as_none(void **state) {
+    fixture *f = *state;
+    static const char *const filters[] = {"mipmap", "lobes", "moments"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        picture_request request = {.filter = filters[i], .width = 16, .height = 16};
+        lobe_scene *scene = square_with_waves(false, 128);
+        lobe_frame expected = draw_scene(f, scene, &request);
+        lobe_scene_destroy(&scene);
+        scene = square_with_waves(true, 128);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+        static const unsigned char alphas[] = {128, 127, 200};
+        for (int k = 0; k < 3; k++) {
+            if (k > 0)
+                change_alpha(f, scene, alphas[k]);
+            lobe_frame frame = draw(f, &request);
+            assert_int_equal(times_run(&frame, "mask_coverage"), alphas[k] < 128);
+            if (alphas[k] >= 128)
+                check_equal(&frame, &expected);
+            lobe_frame_free(&frame);
+        }
+        scene->materials[0].base_colour[3] = 0.6f;
+        assert_int_equal(lobe_renderer_update_scene(
+                             f->renderer, &(lobe_scene_changes){.materials = (uint32_t[]){0},
+                                                                .material_count = 1}),
+                         LOBE_OK);
+        lobe_frame frame = draw(f, &request);
+        assert_int_equal(times_run(&frame, "mask_coverage"), 1);
+        lobe_frame_free(&frame);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+        lobe_scene_destroy(&scene);
+        lobe_frame_free(&expected);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage_is_kept_at_every_distance),
@@ -333,6 +387,7 @@ int main(void) {
         cmocka_unit_test(holes_lend_no_normals),
         cmocka_unit_test(kept_pixels_are_as_bright),
         cmocka_unit_test(coverage_is_built_once_and_only_for_masks),
+        cmocka_unit_test(masks_that_keep_all_are_as_none),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }

@@ -84,7 +84,9 @@ static void features_make_pipelines(void **state) {
     lobe_scene *scene = changing_scene();
     lobe_frame frame = draw_scene(f, scene, &request);
     lobe_frame_free(&frame);
+    // A mask that keeps all is no feature: this one keeps nothing.
     scene->materials[0].alpha_mask = true;
+    scene->materials[0].base_colour[3] = 0;
     faults.pipelines = 0;
     frame = draw_scene(f, scene, &request);
     assert_int_equal(faults.pipelines, 1);
