@@ -107,7 +107,7 @@ def test_depth():
 
 def test_layers():
     folder = fresh_folder("layers")
-    succeeds("render", "tablecloth", *SMALL, "--aov", "-o", folder / "a.exr")
+    succeeds("render", SCENE, *DIRECT, "--aov", "-o", folder / "a.exr")
     channels = exr_header(folder / "a.exr")["channels"]
     layers = ["normal.X", "normal.Y", "normal.Z", "depth.Z", "lobes.count", "level.MIP"]
     check(sorted(channels) == sorted(["R", "G", "B", "A", *layers]), str(channels))
