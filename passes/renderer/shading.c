@@ -12,6 +12,7 @@
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/light_parts.h"
+#include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
 #include "shaders/interface/light.h"
@@ -214,6 +215,9 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
     passes_specialise(list, SPECIALISE_STRETCHED, stretched_map_width(d->context, batch) > 0);
+    passes_specialise(list, SPECIALISE_HEIGHTS_TURNED,
+                      d->context->filter->reads_heights &&
+                          passes_heights_have_own_set(&scene->materials[drawn->material]));
     const uint32_t *of_type = d->lights->of_type;
     passes_specialise(list, SPECIALISE_DIRECTIONAL_LIGHTS, of_type[LOBE_LIGHT_DIRECTIONAL] > 0);
     passes_specialise(list, SPECIALISE_POINT_LIGHTS, of_type[LOBE_LIGHT_POINT] > 0);

@@ -49,6 +49,13 @@ uint32_t passes_second_coordinates(const device_material *material) {
     return material->equal_sets ? 0 : material->second_coordinates;
 }
 
+bool passes_heights_have_own_set(const device_material *material) {
+    const lobe_texture_use *heights = material->maps[MAP_HEIGHT].use;
+    const lobe_texture_use *normals = &material->material->normal_map;
+    const uint32_t followed = normals->image >= 0 ? normals->texture_coordinates : 0;
+    return heights && !material->equal_sets && heights->texture_coordinates != followed;
+}
+
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,
                                        const device_material *material, uint32_t map) {
     const lobe_texture_use *use = material->maps[map].use;

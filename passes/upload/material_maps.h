@@ -15,6 +15,10 @@ const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
 /// equal, all maps are read by the first.
 uint32_t passes_second_coordinates(const device_material *material);
 
+/// Whether heights lie on other texture coordinates than those that tangents follow: the normal
+/// map's, without one the first set.
+bool passes_heights_have_own_set(const device_material *material);
+
 /// The texture of a material's map, or the texels that the host gives in this frame; one white
 /// texel if it has no such map.
 lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *scene,

@@ -160,6 +160,7 @@ surface_point seen_surface(surface_point surface) {
 }
 
 appearance fetch_appearance(surface_point surface) {
+    lay_relief_on(surface);
     if (!NEAR || !has_diffuse())
         return fetch_averaged_appearance(surface, surface);
     find_near_facet(surface);

@@ -137,6 +137,7 @@ bool go_on(inout path walk, surface_point surface) {
 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
+    lay_relief_on(surface);
     result.base = unfiltered_material(surface);
     result.normal = result.base.normal;
     if (RELIEF) {

@@ -318,6 +318,7 @@ vec3 mirrored_part(base_material base) {
 }
 
 appearance fetch_appearance(surface_point surface) {
+    lay_relief_on(surface);
     return fetch_averaged_appearance(surface, surface);
 }
 

@@ -43,6 +43,8 @@
 // bool, of the material and the filter: slopes are those of heights, and follow how the map is
 // stretched over the surface
 #define SPECIALISE_STRETCHED SPECIALISE(30)
+// bool, of the material and the filter: tangents do not follow the height map's coordinates
+#define SPECIALISE_HEIGHTS_TURNED SPECIALISE(59)
 // Filtered maps, see shaders/shading/filtered_maps.glsl.
 #define SPECIALISE_PROBES         SPECIALISE(32) // uint, [1, 16]
 #define SPECIALISE_ANISOTROPY     SPECIALISE(33) // uint, [1, 16]

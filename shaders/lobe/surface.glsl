@@ -48,6 +48,7 @@ lobe_surface lobe_surface_at(mat3 world_from_tangent, vec3 to_viewer, vec2 uv, v
     surface.drawn_slope = vec2(0.0);
     surface.vertex_spacing = 0.0;
     surface.stretch = mat2(1.0);
+    surface.heights_frame = mat2(1.0);
     return surface;
 }
 

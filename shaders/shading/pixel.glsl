@@ -8,6 +8,7 @@
 #include "interface/instance.h"
 #include "shading/surface.glsl"
 #include "shading/tangent_frame.glsl"
+#include "lib/map/coordinate_frame.glsl"
 #include "lib/map/slope_stretch.glsl"
 
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
@@ -59,6 +60,17 @@ mat2 stretch_at(surface_point surface) {
                          size.y / size.x);
 }
 
+// On the back, axes and heights are reversed: the frame is the front's.
+mat2 heights_frame_at(surface_point surface) {
+    float side = front_side() ? 1.0 : -1.0;
+    bool second = (SECOND_COORDINATES & (1u << MAP_HEIGHT)) != 0u;
+    vec4 right = dFdx(interpolated_coordinates), down = dFdy(interpolated_coordinates);
+    return coordinate_frame(
+        side * (dFdx(interpolated_position) * surface.world_from_tangent).xy,
+        side * (dFdy(interpolated_position) * surface.world_from_tangent).xy,
+        second ? right.zw : right.xy, second ? down.zw : down.xy);
+}
+
 surface_point read_surface() {
     surface_point surface;
     mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
@@ -89,6 +101,9 @@ surface_point read_surface() {
     surface.stretch = mat2(1.0);
     if (STRETCHED)
         surface.stretch = stretch_at(surface);
+    surface.heights_frame = mat2(1.0);
+    if (HEIGHTS_TURNED)
+        surface.heights_frame = heights_frame_at(surface);
     return surface;
 }
 

@@ -36,6 +36,7 @@ layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 layout(constant_id = SPECIALISE_CURVATURE) const bool CURVATURE = false;
 layout(constant_id = SPECIALISE_DISPLACED) const bool DISPLACED = false;
 layout(constant_id = SPECIALISE_STRETCHED) const bool STRETCHED = false;
+layout(constant_id = SPECIALISE_HEIGHTS_TURNED) const bool HEIGHTS_TURNED = false;
 
 layout(LOBE_DESCRIPTOR(10), std140) uniform knob_block { shared_knobs knobs; };
 layout(LOBE_DESCRIPTOR(3), std140) uniform material_block { material_constants material; };
@@ -67,6 +68,9 @@ struct surface_point {
     float vertex_spacing; // how far vertices are apart, in widths of the sample
     // Of maps made from heights (STRETCHED): slopes in the frame from those of the map.
     mat2 stretch;
+    // Of heights whose set of coordinates is not the one that tangents follow (HEIGHTS_TURNED):
+    // from the tangent frame to that set's, whose x runs along u, and y against v.
+    mat2 heights_frame;
 };
 
 bool has_map(int map) {

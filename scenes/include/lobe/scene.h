@@ -187,7 +187,8 @@ typedef struct lobe_scene_vertex {
     float position[3];
     float normal[3];  ///< unit length
     float tangent[4]; ///< unit length, orthogonal to the normal; w = +1 or -1 gives the
-                      ///< bitangent w * cross(normal, tangent); along increasing u
+                      ///< bitangent w * cross(normal, tangent); along increasing u of the
+                      ///< normal map's coordinates, without one of the first set
     float texture_coordinates[2][2];
     float colour[4]; ///< linear RGB and alpha, multiplies base_colour; 1 if the mesh has none
 } lobe_scene_vertex;

@@ -2,13 +2,20 @@
 #define RELIEF_FRAME_GLSL
 
 // How a relief lies in the tangent frame of its carrier: a transform of the height map's texture
-// coordinates may turn or mirror it. Texels are taken to be square in the world. The tangent runs
-// along increasing u before that transform.
+// coordinates may turn or mirror it, and so may these where the tangent runs along other ones.
+// Texels are taken to be square in the world.
 
 #include "shading/surface.glsl"
 
 // The size of the height map. Each filter that draws reliefs defines it.
 vec2 relief_texels();
+
+// Of the surface that is shaded. Each filter that draws reliefs begins with it.
+mat2 heights_frame = mat2(1.0);
+void lay_relief_on(surface_point surface) {
+    if (HEIGHTS_TURNED)
+        heights_frame = surface.heights_frame;
+}
 
 // From the tangent frame to that of the map: x along its columns, y against its rows.
 mat2 turn_of_map() {
@@ -19,7 +26,7 @@ mat2 turn_of_map() {
     float size = length(along_u);
     vec2 x = size > 0.0 ? vec2(along_u.x, -along_u.y) / size : vec2(1.0, 0.0);
     bool mirrored = along_u.x * along_v.y - along_u.y * along_v.x < 0.0;
-    return mat2(x, mirrored ? vec2(x.y, -x.x) : vec2(-x.y, x.x));
+    return mat2(x, mirrored ? vec2(x.y, -x.x) : vec2(-x.y, x.x)) * heights_frame;
 }
 
 vec3 map_from_tangent(vec3 direction) {

@@ -2,6 +2,7 @@
 // `displaced-reference`.
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/long_runs.h"
 
@@ -431,10 +432,29 @@ static lobe_image striped_mask(void) {
     return image;
 }
 
-/// Of a masked relief before a bright background, two pixels a texel.
-static lobe_frame draw_masked(fixture *f, const char *filter, uint32_t samples) {
-    double outgoing[3];
+/// The same surface, whose first texture coordinates, and tangents along these, are turned by a
+/// quarter; heights use the second ones.
+static void turn_first_set(lobe_scene *scene) {
+    static const float back[2][3] = {{0, -1, 0}, {1, 0, 0}};
+    lobe_mesh *mesh = &scene->meshes[0];
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        lobe_scene_vertex *vertex = &mesh->vertices[i];
+        memcpy(vertex->texture_coordinates[1], vertex->texture_coordinates[0], 2 * sizeof(float));
+        vertex->texture_coordinates[0][0] = vertex->texture_coordinates[1][1];
+        vertex->texture_coordinates[0][1] = -vertex->texture_coordinates[1][0];
+        memcpy(vertex->tangent, (float[]){0, 0, 1, 1}, sizeof vertex->tangent);
+    }
+    mesh->has_texture_coordinates[1] = true;
+    scene->materials[0].height_map.texture_coordinates = 1;
+    memcpy(scene->materials[0].base_colour_map.transform, back, sizeof back);
+}
+
+/// Of a masked relief before a bright background, two pixels a texel. `turned`: as
+/// turn_first_set says.
+static lobe_frame draw_masked(fixture *f, const char *filter, uint32_t samples, bool turned) {
+    double outgoing[3], incoming[3];
     slope_plane_direction(55, 1.3, outgoing);
+    slope_plane_direction(50, 3.5, incoming);
     const lobe_material material = relief_material(0.8);
     lobe_scene *scene =
         relief_plane(&material, relief_map(WIDTH, HEIGHT, waves), outgoing, 16.0 / WIDTH);
@@ -443,10 +463,16 @@ static lobe_frame draw_masked(fixture *f, const char *filter, uint32_t samples) 
     scene->materials[0].alpha_cutoff = 0.5F;
     for (int i = 0; i < 3; i++)
         scene->background[i] = BEHIND;
-    relief_plane_add_sun(scene, outgoing, 1);
+    if (turned)
+        turn_first_set(scene);
+    relief_plane_add_sun(scene, incoming, 1);
     scene_end(scene);
-    const picture_request request = {
-        .filter = filter, .width = 32, .height = 32, .samples = samples};
+    const bool reference = strcmp(filter, "displaced-reference") == 0;
+    const picture_request request = {.filter = filter,
+                                     .settings = {reference ? "bounces=1" : NULL},
+                                     .width = 32,
+                                     .height = 32,
+                                     .samples = samples};
     lobe_frame frame = draw_scene(f, scene, &request);
     lobe_scene_destroy(&scene);
     return frame;
@@ -455,8 +481,8 @@ static lobe_frame draw_masked(fixture *f, const char *filter, uint32_t samples) 
 /// From near a mask cuts the facets that are seen, which lie beside the carrier's points. Pixels at
 /// the mask's edges, of which the reference sees both sides, do not count.
 static void masks_cut_the_facets_that_are_seen(void **state) {
-    lobe_frame reference = draw_masked(*state, "displaced-reference", 16);
-    lobe_frame found = draw_masked(*state, "displaced", 1);
+    lobe_frame reference = draw_masked(*state, "displaced-reference", 16, false);
+    lobe_frame found = draw_masked(*state, "displaced", 1, false);
     uint32_t kept = 0, cut = 0, wrong = 0;
     for (uint32_t i = 0; i < 32 * 32; i++) {
         const float expected = pixel_at(&reference.radiance, i % 32, i / 32)[1];
@@ -470,6 +496,19 @@ static void masks_cut_the_facets_that_are_seen(void **state) {
     lobe_frame_free(&found);
     if (!(kept > 200 && cut > 200 && wrong < 10))
         fail_msg("%u of %u and %u pixels", wrong, kept, cut);
+}
+
+static void heights_may_lie_on_the_second_set(void **state) {
+    static const char *const filters[] = {"displaced", "displaced-reference"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        lobe_frame expected = draw_masked(*state, filters[i], 1, false);
+        lobe_frame found = draw_masked(*state, filters[i], 1, true);
+        const double error = relative_l2(&found.radiance, &expected.radiance);
+        lobe_frame_free(&expected);
+        lobe_frame_free(&found);
+        if (!(error < 1e-3))
+            fail_msg("%s: %g", filters[i], error);
+    }
 }
 
 /// `waves` as stored in a map that lies turned by a quarter, or mirrored, on the plane.
@@ -553,6 +592,7 @@ int main(void) {
         cmocka_unit_test(values_beyond_the_range_count_as_its_ends),
         cmocka_unit_test(transforms_of_coordinates_turn_reliefs),
         cmocka_unit_test(masks_cut_the_facets_that_are_seen),
+        cmocka_unit_test(heights_may_lie_on_the_second_set),
         cmocka_unit_test(a_level_map_is_lambertian),
         cmocka_unit_test(white_reliefs_reflect_all_light),
         cmocka_unit_test(valleys_reflect_their_closed_form),
