@@ -114,46 +114,91 @@ static lobe_result fail_writing(const char *path, const lobe_host *host) {
                           strerror(errno));
 }
 
-/// Closes the file in all cases. Returns 0, or -1 with errno set.
-static int write_all(int file, const uint8_t *data, size_t size) {
-    int error = 0;
-    while (size > 0 && error == 0) {
+/// Returns false with errno set.
+static bool write_all(int file, const uint8_t *data, size_t size) {
+    while (size > 0) {
         ssize_t count = write(file, data, size);
         if (count >= 0) {
             data += count;
             size -= (size_t)count;
         } else if (errno != EINTR) {
-            error = errno;
+            return false;
         }
     }
-    // Some file systems report a full disk only when the file is closed.
-    if (close(file) != 0 && error == 0)
-        error = errno;
-    errno = error;
-    return error == 0 ? 0 : -1;
+    return true;
+}
+
+/// Whether all was written, also when the file is closed: some file systems report a full disk only
+/// then. `written`: so far; if false, errno is kept.
+static bool close_written(int file, bool written) {
+    const int error = errno;
+    const bool closed = close(file) == 0;
+    if (!written)
+        errno = error;
+    return written && closed;
 }
 
 static lobe_result write_directly(const char *path, const void *data, size_t size,
                                   const lobe_host *host) {
     int file = open(path, O_WRONLY | O_CLOEXEC);
-    if (file < 0 || write_all(file, data, size) != 0)
+    if (file < 0 || !close_written(file, write_all(file, data, size)))
         return fail_writing(path, host);
     return LOBE_OK;
 }
 
-/// Creates a file with a new name in the folder of `path`. The name does not contain that of
-/// `path`, which may already have the maximum length.
-static int create_temporary(const char *path, char *name, size_t name_size) {
+/// Creates a file: with `name`, or gives that to `unnamed`, one without a name. Returns -1 with
+/// errno set.
+static int create(const char *name, int unnamed) {
+    if (unnamed < 0)
+        return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    char descriptor[32];
+    snprintf(descriptor, sizeof descriptor, "/proc/self/fd/%d", unnamed);
+    return linkat(AT_FDCWD, descriptor, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? unnamed : -1;
+}
+
+/// The same with a new name in the folder of `path`. The name does not contain that of `path`,
+/// which may already have the maximum length.
+static int create_temporary(const char *path, int unnamed, char *name, size_t name_size) {
     const char *slash = strrchr(path, '/');
     int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
     int file = -1;
     for (unsigned attempt = 0; file < 0 && attempt < 100; attempt++) {
         snprintf(name, name_size, "%.*s.lobe-%ld-%u", folder, path, (long)getpid(), attempt);
-        file = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        file = create(name, unnamed);
         if (file < 0 && errno != EEXIST)
             break;
     }
     return file;
+}
+
+/// A file in the folder of `path` that is gone when it is closed, also by the end of a killed
+/// program. -1: not every file system has these.
+static int create_unnamed(const char *path, char *name, size_t name_size) {
+    const char *slash = strrchr(path, '/');
+    snprintf(name, name_size, "%.*s.", slash != NULL ? (int)(slash - path) + 1 : 0, path);
+    return open(name, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+}
+
+/// Writes a file with a new name in the folder of `path`, which it has only once it is complete,
+/// where the file system has files without names. Returns false with errno set, and `name` empty
+/// if there is none.
+static bool write_temporary(const char *path, const void *data, size_t size, char *name,
+                            size_t name_size) {
+    const int unnamed = create_unnamed(path, name, name_size);
+    bool written = unnamed >= 0 && write_all(unnamed, data, size);
+    *name = '\0';
+    if (unnamed >= 0 && !written)
+        return close_written(unnamed, false);
+    int file = create_temporary(path, unnamed, name, name_size);
+    // Without /proc, files cannot be named.
+    if (file < 0 && unnamed >= 0) {
+        close(unnamed);
+        written = false;
+        file = create_temporary(path, -1, name, name_size);
+    }
+    if (file < 0)
+        *name = '\0';
+    return file >= 0 && close_written(file, written || write_all(file, data, size));
 }
 
 static lobe_result write_and_rename(const char *path, const void *data, size_t size,
@@ -164,12 +209,10 @@ static lobe_result write_and_rename(const char *path, const void *data, size_t s
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY,
                               "%s: cannot be written: out of memory", path);
     lobe_result result = LOBE_OK;
-    int file = create_temporary(path, name, name_size);
-    if (file < 0) {
+    if (!write_temporary(path, data, size, name, name_size) || rename(name, path) != 0) {
         result = fail_writing(path, host);
-    } else if (write_all(file, data, size) != 0 || rename(name, path) != 0) {
-        result = fail_writing(path, host);
-        unlink(name);
+        if (*name)
+            unlink(name);
     }
     lobe_release(name);
     return result;

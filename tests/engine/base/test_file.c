@@ -1,9 +1,13 @@
 #include "tests/engine/support/cmocka_all.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <lobe/file.h>
@@ -125,6 +129,32 @@ static void what_cannot_be_written_is_named_and_nothing_is_left(void **state) {
     assert_int_equal(temporary_folder_count(&test_folder), 0);
 }
 
+/// A program that is killed leaves nothing half-written, neither with a name nor with another.
+static void a_killed_writer_leaves_nothing(void **state) {
+    (void)state;
+    enum { SIZE = 1 << 20 };
+    static const char data[SIZE];
+    const int unnamed = open(test_folder.path, O_WRONLY | O_TMPFILE, 0600);
+    if (unnamed < 0)
+        skip(); // the file system has no files without names
+    close(unnamed);
+    const char *path = temporary_folder_file(&test_folder, "large");
+    const pid_t writer = fork();
+    assert_true(writer >= 0);
+    if (writer == 0) {
+        // The signal that comes with this limit kills.
+        signal(SIGXFSZ, SIG_DFL);
+        setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
+        setrlimit(RLIMIT_FSIZE, &(struct rlimit){SIZE / 2, SIZE / 2});
+        lobe_file_write(path, data, SIZE, NULL);
+        _exit(0);
+    }
+    int status;
+    assert_int_equal(waitpid(writer, &status, 0), writer);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(temporary_folder_count(&test_folder), 0);
+}
+
 static void a_name_as_long_as_names_may_be_is_fine(void **state) {
     (void)state;
     char name[256];
@@ -168,6 +198,7 @@ int main(void) {
         IN_TEST_FOLDER(the_referring_file_is_named_too),
         IN_TEST_FOLDER(a_sparse_giant_is_refused),
         IN_TEST_FOLDER(what_cannot_be_written_is_named_and_nothing_is_left),
+        IN_TEST_FOLDER(a_killed_writer_leaves_nothing),
         IN_TEST_FOLDER(a_name_as_long_as_names_may_be_is_fine),
         IN_TEST_FOLDER(a_link_keeps_pointing_at_the_new_content),
         IN_TEST_FOLDER(a_device_is_written_to_and_stays),
