@@ -146,8 +146,14 @@ static lobe_result write_directly(const char *path, const void *data, size_t siz
     return LOBE_OK;
 }
 
-/// Creates a file: with `name`, or gives that to `unnamed`, one without a name. Returns -1 with
-/// errno set.
+/// The length of the folder's part of a path, with its last slash.
+static int folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? (int)(slash - path) + 1 : 0;
+}
+
+/// Creates a file with this name; or gives the name to `unnamed`, an open file that has none (-1:
+/// there is no such file). Returns the file, or -1 with errno set.
 static int create(const char *name, int unnamed) {
     if (unnamed < 0)
         return open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -159,11 +165,10 @@ static int create(const char *name, int unnamed) {
 /// The same with a new name in the folder of `path`. The name does not contain that of `path`,
 /// which may already have the maximum length.
 static int create_temporary(const char *path, int unnamed, char *name, size_t name_size) {
-    const char *slash = strrchr(path, '/');
-    int folder = slash != NULL ? (int)(slash - path) + 1 : 0;
     int file = -1;
     for (unsigned attempt = 0; file < 0 && attempt < 100; attempt++) {
-        snprintf(name, name_size, "%.*s.lobe-%ld-%u", folder, path, (long)getpid(), attempt);
+        snprintf(name, name_size, "%.*s.lobe-%ld-%u", folder_length(path), path, (long)getpid(),
+                 attempt);
         file = create(name, unnamed);
         if (file < 0 && errno != EEXIST)
             break;
@@ -174,8 +179,7 @@ static int create_temporary(const char *path, int unnamed, char *name, size_t na
 /// A file in the folder of `path` that is gone when it is closed, also by the end of a killed
 /// program. -1: not every file system has these.
 static int create_unnamed(const char *path, char *name, size_t name_size) {
-    const char *slash = strrchr(path, '/');
-    snprintf(name, name_size, "%.*s.", slash != NULL ? (int)(slash - path) + 1 : 0, path);
+    snprintf(name, name_size, "%.*s.", folder_length(path), path);
     return open(name, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
 }
 

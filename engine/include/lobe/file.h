@@ -38,10 +38,9 @@ typedef struct lobe_file_source {
     void *user; ///< passed to both
 } lobe_file_source;
 
-/// Writes a file under a temporary name in the same folder, then renames it, replacing an old file;
-/// without a name until it is complete where the file system can, so that a killed program leaves
-/// nothing.
-/// Anything but a regular file (a device, a pipe) is written to directly.
+/// Writes a file under a temporary name in the same folder, then renames it, replacing an old file.
+/// On file systems that can, it has no name until it is complete, so that a killed program leaves
+/// nothing half-written. Anything but a regular file (a device, a pipe) is written to directly.
 /// Errors: LOBE_ERROR_WRITE, LOBE_ERROR_OUT_OF_MEMORY; the temporary file is removed then.
 LOBE_API lobe_result lobe_file_write(const char *path, const void *data, size_t size,
                                      const lobe_host *host);

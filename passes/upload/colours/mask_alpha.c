@@ -90,6 +90,7 @@ bool passes_mask_may_cut(device_scene *scene, const device_material *material) {
         return false;
     if (is_posed(scene, material) || has_given_vertices(scene, material))
         return true;
+    // Where the factor alone is below the cutoff, the map need not be read.
     const float factor = source->base_colour[3] * vertex_alphas(scene, material).least;
     return !(factor >= source->alpha_cutoff &&
              factor * least_alpha_of_map(scene, material) >= source->alpha_cutoff);
