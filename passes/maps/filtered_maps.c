@@ -218,7 +218,7 @@ static bool needs_filtering(const device_material *material, uint32_t map) {
         return false;
     const uint32_t metal = passes_metal_means_of(material);
     if (map == MAP_BASE_COLOUR)
-        return metal != METAL_MEANS_COLOURED && metal != METAL_MEANS_FINER;
+        return material->masked || (metal != METAL_MEANS_COLOURED && metal != METAL_MEANS_FINER);
     // The filter's own map holds the widths; the map may also hold metalness.
     return map != MAP_WIDTH || (material->metallic_varies && metal == METAL_MEANS_NONE);
 }

@@ -17,9 +17,10 @@
 #define MAP_SHADING     6 // the first of them: every shading binds these
 
 // Layers of the map of where microfacets are metal (maps/metal_means.comp): with c the texel of the
-// base colour map, or one with METAL_MEANS_ALONE, and m that of metal's share,
-#define METAL_LAYER_METAL  0 // E[c m], E[m^2]; with METAL_MEANS_ALONE E[m], E[1], 0, E[m^2]
-#define METAL_LAYER_COLOUR 1 // E[c], E[m]; not with METAL_MEANS_ALONE
+// base colour map, or one with METAL_MEANS_ALONE, m that of metal's share, and s how much the texel
+// counts, which is less than one only under a mask,
+#define METAL_LAYER_METAL  0 // E[s c m], E[s m^2]; with METAL_MEANS_ALONE E[s m], E[s], 0, E[s m^2]
+#define METAL_LAYER_COLOUR 1 // E[c], E[m], or under a mask E[s m], E[s], 0, 0; not with ..._ALONE
 
 // Layers of the map of how diffuse colours go with normals (maps/colour_normals.comp): with d the
 // diffuse colour and n the normal of a point, and s how much it counts (maps/base_maps.glsl),

@@ -78,7 +78,7 @@
 
 // Whether a map of means (maps/metal_means.comp) has a material's colour and metal.
 #define METAL_MEANS_NONE     0 // no: metal is the same everywhere, or lies apart from the lobes
-#define METAL_MEANS_ALONE    1 // metal: colours are alike everywhere, lie apart or are cut by a mask
+#define METAL_MEANS_ALONE    1 // metal: colours are alike everywhere, or lie apart
 #define METAL_MEANS_COLOURED 2 // both
 #define METAL_MEANS_FINER    3 // both, and colours have more texels than lobes
 

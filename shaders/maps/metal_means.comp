@@ -7,7 +7,7 @@
 // colour is reflected, where the means have a quarter.
 //
 // Factors of the material are left out, so that new ones rebuild nothing; not that of alpha under a
-// mask, which leaves no colours here.
+// mask. What the mask keeps has the mean colour that the filtered base colour map says.
 
 #include "interface/lobe_grid.h"
 #include "interface/material.h"
@@ -28,6 +28,7 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray metal_map;
 
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
+// The layers of the map.
 struct point_sums {
     vec4 metal;
     vec4 colour;
@@ -35,13 +36,18 @@ struct point_sums {
 
 void add_point(inout point_sums sums, vec2 point, float weight) {
     float metallic = base_texel(width_map, point).b;
-    vec3 colour = METAL_MEANS == METAL_MEANS_COLOURED ? base_texel(base_colour_map, point).rgb
-                                                      : vec3(1.0);
+    vec4 colour = METAL_MEANS == METAL_MEANS_COLOURED || MASKED_LOBES
+                      ? base_texel(base_colour_map, point)
+                      : vec4(1.0);
     if (MASKED_LOBES)
-        weight *= weight_of_alpha(base_texel(base_colour_map, point).a, constants.alpha,
-                                  constants.cutoff);
-    sums.metal += weight * metallic * vec4(colour, metallic);
-    sums.colour += weight * vec4(colour, metallic);
+        weight *= weight_of_alpha(colour.a, constants.alpha, constants.cutoff);
+    if (METAL_MEANS == METAL_MEANS_COLOURED) {
+        sums.metal += weight * metallic * vec4(colour.rgb, metallic);
+        sums.colour += weight * (MASKED_LOBES ? vec4(metallic, 1.0, 0.0, 0.0)
+                                              : vec4(colour.rgb, metallic));
+    } else {
+        sums.metal += weight * vec4(metallic, 1.0, 0.0, metallic * metallic);
+    }
 }
 
 // Colours that are interpolated are averaged as products of colour and metal are, see
@@ -64,11 +70,7 @@ void main() {
             add_texel(sums, 2 * position + ivec2(x, y), size,
                       row_weights[y] * column_weights[x]);
     }
-    if (METAL_MEANS == METAL_MEANS_COLOURED) {
-        imageStore(metal_map, ivec3(position, METAL_LAYER_METAL), sums.metal);
+    imageStore(metal_map, ivec3(position, METAL_LAYER_METAL), sums.metal);
+    if (METAL_MEANS == METAL_MEANS_COLOURED)
         imageStore(metal_map, ivec3(position, METAL_LAYER_COLOUR), sums.colour);
-    } else {
-        imageStore(metal_map, ivec3(position, METAL_LAYER_METAL),
-                   vec4(sums.metal.r, sums.colour.r, 0.0, sums.metal.a));
-    }
 }

@@ -21,8 +21,7 @@ static bool lies_like_lobes(const device_material *material, uint32_t map) {
 uint32_t passes_metal_means_of(const device_material *material) {
     if (!material->metallic_varies || !lies_like_lobes(material, MAP_WIDTH))
         return METAL_MEANS_NONE;
-    // Under a mask, colours are those of what it keeps.
-    if (material->masked || !lies_like_lobes(material, MAP_BASE_COLOUR))
+    if (!lies_like_lobes(material, MAP_BASE_COLOUR))
         return METAL_MEANS_ALONE;
     return passes_lies_under_lobes(material, MAP_BASE_COLOUR) ? METAL_MEANS_COLOURED
                                                               : METAL_MEANS_FINER;

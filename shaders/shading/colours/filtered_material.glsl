@@ -24,13 +24,12 @@ bool metal_has_colours() {
 // The layers of the map, from samples of the base maps.
 void layers_of_level_0(surface_point surface, vec2 position, out vec4 metal, out vec4 colour) {
     float share = base_texel(width_map, position).b;
-    colour =
-        vec4(metal_has_colours() ? base_texel(base_colour_map, position).rgb : vec3(1.0), share);
-    metal = share * vec4(colour.rgb, share);
-    if (metal_has_colours())
-        return;
-    bool kept = !MASKED_LOBES || is_kept(base_texel(base_colour_map, position).a, surface);
-    metal = kept ? vec4(share, 1.0, 0.0, share * share) : vec4(0.0);
+    vec4 texel = metal_has_colours() || MASKED_LOBES ? base_texel(base_colour_map, position)
+                                                     : vec4(1.0);
+    float kept = !MASKED_LOBES || is_kept(texel.a, surface) ? 1.0 : 0.0;
+    metal = kept * (metal_has_colours() ? share * vec4(texel.rgb, share)
+                                        : vec4(share, 1.0, 0.0, share * share));
+    colour = MASKED_LOBES ? kept * vec4(share, 1.0, 0.0, 0.0) : vec4(texel.rgb, share);
 }
 
 metal_means fetch_metal_means(surface_point surface, map_area lobes) {
@@ -59,11 +58,15 @@ metal_means fetch_metal_means(surface_point surface, map_area lobes) {
         metal *= per_kept(metal.g);
         metal = metal.rrra;
         colour = metal.rrrr;
+    } else if (MASKED_LOBES) {
+        float scale = per_kept(colour.g);
+        metal *= scale;
+        colour.a = scale * colour.r;
     }
-    if (METAL_MEANS == METAL_MEANS_ALONE) {
+    if (METAL_MEANS == METAL_MEANS_ALONE || MASKED_LOBES)
         colour.rgb = filtered_base_colour(surface, lobes).rgb;
+    if (METAL_MEANS == METAL_MEANS_ALONE)
         metal.rgb *= colour.rgb;
-    }
     vec3 factor = material.base_colour.rgb * (VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0));
     float metallic = material.metallic;
     return metal_means(factor * colour.rgb, metallic * factor * metal.rgb, metallic * colour.a,

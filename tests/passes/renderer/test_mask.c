@@ -275,23 +275,55 @@ static lobe_scene *square_with_waves(bool masked, unsigned char alpha) {
     return scene;
 }
 
-/// What is cut away is missing once: pixels that are kept are as bright as without the mask.
-static void kept_pixels_are_as_bright(void **state) {
-    static const char *const filters[] = {"tan", "fournier"};
-    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
-        double means[2][3];
-        for (int masked = 0; masked < 2; masked++) {
-            lobe_scene *scene = square_with_waves(masked, 0);
-            picture_request request = {.filter = filters[i], .width = 32, .height = 32};
-            lobe_frame frame = draw_scene(*state, scene, &request);
-            mean_of_picture(&frame.radiance, means[masked]);
-            lobe_frame_free(&frame);
-            lobe_scene_destroy(&scene);
-        }
-        if (!(means[0][0] > 0 && fabs(means[1][0] / means[0][0] - 0.5) < 0.02))
-            fail_msg("%s: %g with a mask of half, %g without", filters[i], means[1][0],
-                     means[0][0]);
+/// Makes every other two columns gold, and black paint of the rest; of either, half is kept.
+static void add_gold_columns(lobe_scene *scene) {
+    lobe_material *material = &scene->materials[0];
+    unsigned char *colours =
+        (unsigned char *)scene->images[material->base_colour_map.image].image.texels;
+    static const unsigned char gold[] = {255, 180, 60};
+    lobe_image metal = map_image(LOBE_FORMAT_RGBA8_UNORM, 16, 16);
+    for (uint32_t i = 0; i < 256; i++) {
+        const bool is_metal = i % 4 < 2;
+        memcpy((unsigned char *)metal.texels + (size_t)4 * i,
+               (unsigned char[]){0, 255, is_metal ? 255 : 0, 255}, 4);
+        for (uint32_t k = 0; k < 3; k++)
+            colours[(size_t)4 * i + k] = is_metal ? gold[k] : 0;
     }
+    material->metallic = 1;
+    material->metallic_roughness_map = scene_add_map(scene, metal);
+    material->metallic_roughness_map.nearest = true;
+}
+
+/// What is cut away is missing once: pixels that are kept are as bright as without the mask.
+static void check_brightness(fixture *f, const char *filter, bool gold) {
+    double means[2][3];
+    for (int masked = 0; masked < 2; masked++) {
+        lobe_scene *scene = square_with_waves(masked, 0);
+        if (gold)
+            add_gold_columns(scene);
+        picture_request request = {.filter = filter, .width = 32, .height = 32};
+        lobe_frame frame = draw_scene(f, scene, &request);
+        mean_of_picture(&frame.radiance, means[masked]);
+        lobe_frame_free(&frame);
+        lobe_scene_destroy(&scene);
+    }
+    for (int channel = 0; channel < 3; channel++)
+        if (!(means[0][channel] > 0 && fabs(means[1][channel] / means[0][channel] - 0.5) < 0.02))
+            fail_msg("%s%s: %g with a mask of half, %g without", filter, gold ? ", gold" : "",
+                     means[1][channel], means[0][channel]);
+}
+
+static void kept_pixels_are_as_bright(void **state) {
+    check_brightness(*state, "tan", false);
+    check_brightness(*state, "fournier", false);
+}
+
+/// Also where metal and paint have colours of their own: the product of mean colour and mean share
+/// of metal is a quarter of the gold.
+static void kept_metal_is_as_bright(void **state) {
+    static const char *const filters[] = {"mipmap", "toksvig", "lean", "leadr", "lobes", "moments"};
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++)
+        check_brightness(*state, filters[i], true);
 }
 
 static size_t times_run(const lobe_frame *frame, const char *name) {
@@ -386,6 +418,7 @@ int main(void) {
         cmocka_unit_test(pictures_do_not_flicker),
         cmocka_unit_test(holes_lend_no_normals),
         cmocka_unit_test(kept_pixels_are_as_bright),
+        cmocka_unit_test(kept_metal_is_as_bright),
         cmocka_unit_test(coverage_is_built_once_and_only_for_masks),
         cmocka_unit_test(masks_that_keep_all_are_as_none),
     };
