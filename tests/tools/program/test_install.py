@@ -279,6 +279,21 @@ def test_examples():
              *flags(TARGET, "--cflags", "--libs"), "-lvulkan", "-lm"])
 
 
+def test_example_of_own_shading_needs_only_what_is_installed():
+    """By the commands of its document, with the compiler that this was built with."""
+    text = installed("doc/lobe/docs/own-shading.md").read_text()
+    commands = re.search(r"```sh\n(.*?)```", text, re.DOTALL)[1]
+    check("\ncc " in commands, "no compiler is called")
+    folder = FOLDER / "example"
+    shutil.copytree(installed("own_shading.c").parent, folder)
+    run(["sh", "-e", "-c", commands.replace("\ncc ", f"\n{shlex.join(C_COMPILER)} ")], cwd=folder,
+        PKG_CONFIG_LIBDIR=str(installed("lobe.pc").parent), PKG_CONFIG_PATH="",
+        PKG_CONFIG_SYSROOT_DIR=str(TARGET))
+    run([folder / "own_shading", "lean", "bumps", folder / "picture.exr", "16", "8"],
+        LD_LIBRARY_PATH=str(installed("liblobe.so").parent))
+    check((folder / "picture.exr").stat().st_size > 0, "no picture")
+
+
 def test_program_in_c_linked_statically():
     static = FOLDER / "static"
     shutil.copytree(TARGET, static, symlinks=True)
