@@ -79,6 +79,8 @@ struct lobe_filter {
     bool fetches_texels;     ///< the shader reads the lobes' map texel by texel
     /// The shader reads the environment's moments over hemispheres for materials with heights.
     bool gathers_moments;
+    /// Shades reliefs by how much microfacets reflect of light from everywhere, in any light.
+    bool reads_albedo;
     /// Shading runs loops for each light, which devices may cut short if there are many.
     bool loops_for_lights;
     filter_slopes slopes;

@@ -293,7 +293,7 @@ environment_light passes_environment_light_build(const filter_context *context,
     bool split = light.present &&
                  (light.method == ENVIRONMENT_MIP || light.method == ENVIRONMENT_PREFILTERED ||
                   light.method == ENVIRONMENT_SAMPLED);
-    if (split || scatters(context))
+    if (split || scatters(context) || context->filter->reads_albedo)
         build_albedo(context, &light);
     if (!light.present) {
         passes_environment_light_forget(work->state);

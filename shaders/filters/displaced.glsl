@@ -53,6 +53,11 @@ const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;
 
+// By how much more of what facets mirror than of diffuse light may meet other facets, and of how
+// little of the latter.
+const float MOST_MIRRORED_ON = 4.0;
+const float LEAST_INDIRECT = 0.01;
+
 // Factors of the 16 polynomials, or their values, in the map's frame.
 struct polynomials {
     vec4 terms[4];
@@ -92,6 +97,7 @@ struct relief_footprint {
     float seen;          // of the facets' area that faces the viewer
     light_sum lights[4];
     float shone_on[4]; // of the facets' area that faces the light
+    vec3 mirrored_on;  // of light between facets, what those mirrored that they show the viewer
     near_facet near;
 };
 relief_footprint drawn;
@@ -386,6 +392,7 @@ void divide_form(bool lit) {
 
 void gather_relief(surface_point surface, bool lit) {
     drawn.viewer = viewer_of(surface);
+    drawn.mirrored_on = vec3(0.0);
     fetch_transfer(transfer_area(NEAR ? seen_surface(surface) : surface));
     polynomials viewer = polynomials_of(drawn.viewer);
     float functions[ORDER];
@@ -436,8 +443,12 @@ reflected_light reflect_light(vec3 incoming) {
     return reflected;
 }
 
+// What microfacets reflect of light from everywhere, at the mean cosine that a facet is seen under.
 vec3 mirrored_part(base_material base) {
-    return MODEL == MODEL_MICROFACET ? clamp(base.specular, 0.0, 1.0) : vec3(0.0);
+    const float MEAN_COSINE = 2.0 / 3.0;
+    vec3 albedo = specular_albedo(albedo_of(MEAN_COSINE, base.width), base.specular, vec3(1.0)) *
+                  scattering_scale(base.specular, MEAN_COSINE, base.width);
+    return clamp(albedo, 0.0, 1.0);
 }
 
 // By how much the colours of what a pixel sees differ from those that are in the map of transfer:
@@ -454,8 +465,7 @@ vec3 tint_of(base_material base, surface_point surface) {
     return tint * mix(min(found, 4.0), vec3(1.0), min(level, 1.0));
 }
 
-// Radiance of diffuse facets. `passed`: the part of light that is not mirrored. What is mirrored
-// and meets other facets is taken to go on as if it were diffuse.
+// Radiance of diffuse facets. `passed`: the part of light that is not mirrored.
 vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
                       reflected_light reflected) {
     if (NEAR && drawn.near.share > 0.0)
@@ -466,8 +476,8 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
         sum = tint * (passed * reflected.direct + tint * reflected.indirect);
     } else {
         vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0);
-        vec3 share = indirect_share(albedo) + indirect_share(mirrored_part(base));
-        sum = albedo * reflected.direct + share * reflected.indirect;
+        sum = albedo * reflected.direct +
+              (indirect_share(albedo) + drawn.mirrored_on) * reflected.indirect;
     }
     return max(sum, 0.0);
 }
@@ -535,29 +545,73 @@ float seen_by_both(float first, float second) {
     return first * second / max(first + second - first * second, 1e-6);
 }
 
-void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
+float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
+    float sum = 0.0;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        sum += facing_area(groups[k], direction);
+    return sum;
+}
+
+// Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
+// smooth facets in the direction that their mean mirrors, rough ones as diffuse ones are.
+struct mirroring_bins {
+    facet_group groups[FACET_BINS];
+    float areas[FACET_BINS];
+    float shares[FACET_BINS]; // of the bin's facets, those that face the viewer
+};
+
+mirroring_bins find_bins(surface_point surface, float width) {
     map_area area = transfer_area(surface);
-    float facing_viewer = 0.0, facing_lights[4];
+    mirroring_bins bins;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        bins.groups[k] = facets_of_bin(surface, area, k);
+    drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
+    float roughness = roughness_from_parameter(DISTRIBUTION, width);
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        float size = bins.groups[k].size;
+        normal_spread normals = normals_of(bins.groups[k]);
+        vec3 normal = facing_normals(normals, drawn.viewer, bins.shares[k]).mean;
+        bins.areas[k] = 0.0;
+        if (size * bins.shares[k] <= 1e-4)
+            continue;
+        vec3 incoming = reflect(-drawn.viewer, normalize(normal));
+        float lit = seen_part(facing_area(bins.groups, incoming), incoming);
+        float shown = mix(seen_by_both(drawn.seen, lit), drawn.seen * closure.direct,
+                          roughness * roughness);
+        bins.areas[k] = size * shown * mean_facing_cosine(normals, drawn.viewer);
+    }
+    return bins;
+}
+
+// What facets mirror and other facets get goes on as if it were diffuse, but it is as much as bins
+// do not show of what is above the relief, so that no light is lost, where as much of diffuse light
+// as a white relief does not reflect at once goes on.
+void find_mirrored_on(base_material base, mirroring_bins bins) {
+    float shown = 0.0;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        shown += bins.areas[k];
+    float kept = 1.0 - clamp(shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
+    float diffuse = product(integrals_of_polynomials(), drawn.form.red.indirect);
+    drawn.mirrored_on = indirect_share(mirrored_part(base)) *
+                        min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
+}
+
+void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
+    mirroring_bins bins = find_bins(surface, fetched.base.width);
+    find_mirrored_on(fetched.base, bins);
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
         drawn.lights[i] = no_light();
-        facing_lights[i] = 0.0;
+        drawn.shone_on[i] = seen_part(facing_area(bins.groups, incoming[i]), incoming[i]);
     }
     for (uint k = 0u; k < FACET_BINS; ++k) {
-        facet_group facets = facets_of_bin(surface, area, k);
-        facing_viewer += facing_area(facets, drawn.viewer);
-        for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
-            facing_lights[i] += facing_area(facets, incoming[i]);
-        if (facets.size <= 1e-4)
+        if (bins.groups[k].size <= 1e-4)
             continue;
-        plane_bin bin = bin_of(facets, fetched.base.width);
+        plane_bin bin = bin_of(bins.groups[k], fetched.base.width);
         for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
             vec3 halfway = half_vector(incoming[i], surface.outgoing);
             add_bin_to_light(drawn.lights[i], bin, halfway, plane_from_direction(halfway));
         }
     }
-    drawn.seen = seen_part(facing_viewer, drawn.viewer);
-    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
-        drawn.shone_on[i] = seen_part(facing_lights[i], incoming[i]);
 }
 
 // Of facets that are seen and lit by parts, over the area that the viewer sees.
@@ -615,13 +669,6 @@ void light_of_environment(surface_point surface, out polynomials light[3]) {
                            scaled(polynomials_from(blue), environment.intensity));
 }
 
-float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
-    float sum = 0.0;
-    for (uint k = 0u; k < FACET_BINS; ++k)
-        sum += facing_area(groups[k], direction);
-    return sum;
-}
-
 // A white facet reflects no more than the light of the whole hemisphere over pi, nor gets more from
 // others. Both parts overshoot, against each other in a white furnace: only their sum is bounded.
 // The light is that of the integrals' own sum, which lacks what is close to the horizon.
@@ -633,27 +680,15 @@ vec3 most_of_environment(polynomials light[3]) {
                0.0);
 }
 
-// Each bin by the area of it that faces the viewer, masked, and shadowed in the direction that its
-// mean facet mirrors.
 vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
-    map_area area = transfer_area(surface);
-    facet_group groups[FACET_BINS];
-    for (uint k = 0u; k < FACET_BINS; ++k)
-        groups[k] = facets_of_bin(surface, area, k);
-    float seen = seen_part(facing_area(groups, drawn.viewer), drawn.viewer);
+    mirroring_bins bins = find_bins(surface, fetched.base.width);
+    find_mirrored_on(fetched.base, bins);
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < FACET_BINS; ++k) {
-        float share, size = groups[k].size;
-        normal_spread normals = normals_of(groups[k]);
-        vec3 normal = facing_normals(normals, drawn.viewer, share).mean;
-        if (size * share <= 1e-4)
-            continue;
-        vec3 incoming = reflect(-drawn.viewer, normalize(normal));
-        float lit = seen_part(facing_area(groups, incoming), incoming);
-        float facing = mean_facing_cosine(normals, drawn.viewer) / max(share, 1e-3);
-        sum += (size * facing * seen_by_both(seen, lit)) *
-               reflect_bin(surface, bin_of(groups[k], fetched.base.width), fetched.base.specular);
-    }
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        if (bins.areas[k] > 0.0)
+            sum += bins.areas[k] / max(bins.shares[k], 1e-3) *
+                   reflect_bin(surface, bin_of(bins.groups[k], fetched.base.width),
+                               fetched.base.specular);
     return sum / (drawn.viewer.z * drawn.visible);
 }
 

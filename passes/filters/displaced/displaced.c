@@ -190,6 +190,7 @@ const lobe_filter passes_filter_displaced = {
     .knobs = knobs,
     .reads_heights = true,
     .gathers_moments = true,
+    .reads_albedo = true,
     .prepare = prepare,
     .adapts_to_texels = true,
     .save = passes_kept_save,
