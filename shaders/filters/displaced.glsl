@@ -53,8 +53,8 @@ const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;
 
-// By how much more of what facets mirror than of diffuse light may meet other facets, and of how
-// little of the latter.
+// At most this many times as much of mirrored light as of diffuse light meets other facets; and of
+// diffuse light no less than this part is taken to do so.
 const float MOST_MIRRORED_ON = 4.0;
 const float LEAST_INDIRECT = 0.01;
 
@@ -97,7 +97,7 @@ struct relief_footprint {
     float seen;          // of the facets' area that faces the viewer
     light_sum lights[4];
     float shone_on[4]; // of the facets' area that faces the light
-    vec3 mirrored_on;  // of light between facets, what those mirrored that they show the viewer
+    vec3 mirrored_on;  // factor of the light between facets, for what they mirror to each other
     near_facet near;
 };
 relief_footprint drawn;
@@ -583,9 +583,9 @@ mirroring_bins find_bins(surface_point surface, float width) {
     return bins;
 }
 
-// What facets mirror and other facets get goes on as if it were diffuse, but it is as much as bins
-// do not show of what is above the relief, so that no light is lost, where as much of diffuse light
-// as a white relief does not reflect at once goes on.
+// Light that facets mirror onto other facets goes on as if it were diffuse. It is as much as the
+// bins do not show of what is above the relief, so that none is lost: relative to diffuse light, of
+// which a white relief sends on what it does not reflect at once.
 void find_mirrored_on(base_material base, mirroring_bins bins) {
     float shown = 0.0;
     for (uint k = 0u; k < FACET_BINS; ++k)
