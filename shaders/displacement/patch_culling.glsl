@@ -151,7 +151,7 @@ sphere displaced_sphere(sphere base, patch_displacement offset, height_bounds he
 // How steep triangles of a relief may be, over the slopes that heights have from texel to texel.
 const float STEEPER = 2.0;
 
-// The tangent of the angle by which displaced triangles lean at most; infinite: any.
+// The sine of the angle by which displaced triangles lean at most; 1: any.
 float steepest_lean(patch_coordinates places, vec3 corners[3], vec3 normal,
                     patch_displacement offset, height_bounds heights) {
     vec3 first = corners[1] - corners[0], second = corners[2] - corners[0];
@@ -165,8 +165,8 @@ float steepest_lean(patch_coordinates places, vec3 corners[3], vec3 normal,
     float longest = max(max(length(first), length(second)), length(second - first));
     float stretched = heights.greatest * offset.spread * longest / sqrt(square);
     float aslant = length(cross(normalize(normal), normalize(offset.mean)));
-    float left = 1.0 - stretched - slope * aslant;
-    return left > 0.25 ? (slope + stretched) / left : 1e30;
+    float rise = slope + stretched, run = 1.0 - stretched - slope * aslant;
+    return run > 0.25 ? rise / length(vec2(rise, run)) : 1.0;
 }
 
 bool shows_back(patch_coordinates places, vec3 corners[3], sphere whole,
@@ -178,7 +178,7 @@ bool shows_back(patch_coordinates places, vec3 corners[3], sphere whole,
     vec3 towards = constants.eye.xyz - constants.eye.w * whole.centre;
     float radius = constants.eye.w * whole.radius;
     float height = constants.facing * dot(towards, normalize(normal));
-    return height + radius < -lean * inversesqrt(1.0 + lean * lean) * (length(towards) + radius);
+    return height + radius < -lean * (length(towards) + radius);
 }
 
 // ---------------------------------------------------------------------------------------------
