@@ -1,8 +1,12 @@
 // Amplitudes of waves against the spectrum's integrals.
+//
+// `test_ocean_layer slopes` prints, for winds and fetches from the least to the greatest, what four
+// seas have of the variance of slopes in each layer's band.
 
 #include "tests/engine/support/cmocka_all.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,28 +46,56 @@ static void add_slopes(const ocean_layer *layer, const float *amplitudes, double
         }
 }
 
+/// The mean covariance of four seas, and the spectrum's integral over the waves of a layer that
+/// texels can hold.
+static void slopes_of_layer(const lobe_ocean_parameters *parameters, uint32_t index,
+                            double found[3], double exact[3]) {
+    const sea sea = passes_sea(parameters);
+    double along_across[2];
+    ocean_layer layer = passes_ocean_layer(parameters, index);
+    layer.to = fmin(layer.to, 0.99 * PI * layer.size / layer.length);
+    memset(found, 0, 3 * sizeof *found);
+    for (uint32_t seed = 1; seed <= 4; seed++) {
+        layer.seed = seed;
+        float *amplitudes = amplitudes_of(&layer, &sea);
+        add_slopes(&layer, amplitudes, found);
+        free(amplitudes);
+    }
+    for (int k = 0; k < 3; k++)
+        found[k] /= 4;
+    passes_sea_slopes(&sea, layer.from, layer.to, along_across);
+    passes_sea_covariance(&sea, along_across, exact);
+}
+
 // The mean of four seas is within 3 % of the spectrum's integral.
 static void slopes_are_those_of_the_spectrum(void **state) {
     (void)state;
     lobe_ocean_parameters parameters = parameters_of(1024);
-    const sea sea = passes_sea(&parameters);
     for (uint32_t i = 0; i < parameters.layers; i++) {
-        double sums[3] = {0}, along_across[2], exact[3];
-        ocean_layer layer = passes_ocean_layer(&parameters, i);
-        // What the texels of the last layer can hold.
-        layer.to = fmin(layer.to, 0.99 * PI * layer.size / layer.length);
-        for (uint32_t seed = 1; seed <= 4; seed++) {
-            layer.seed = seed;
-            float *amplitudes = amplitudes_of(&layer, &sea);
-            add_slopes(&layer, amplitudes, sums);
-            free(amplitudes);
-        }
-        passes_sea_slopes(&sea, layer.from, layer.to, along_across);
-        passes_sea_covariance(&sea, along_across, exact);
+        double found[3], exact[3];
+        slopes_of_layer(&parameters, i, found, exact);
         for (int k = 0; k < 3; k++)
-            assert_true(fabs(sums[k] / 4 - exact[k]) < 0.03 * (exact[0] + exact[1]) / 2);
-        assert_true(fabs((sums[0] + sums[1]) / 4 / (exact[0] + exact[1]) - 1) < 0.03);
+            assert_true(fabs(found[k] - exact[k]) < 0.03 * (exact[0] + exact[1]) / 2);
+        assert_true(fabs((found[0] + found[1]) / (exact[0] + exact[1]) - 1) < 0.03);
     }
+}
+
+/// In brackets, how much of the slopes of all of the sea is in the layer.
+static void print_slopes(float wind, float fetch) {
+    lobe_ocean_parameters parameters = parameters_of(1024);
+    parameters.wind_speed = wind;
+    parameters.fetch = fetch;
+    const sea sea = passes_sea(&parameters);
+    double all[2];
+    passes_sea_slopes(&sea, 0, INFINITY, all);
+    printf("%5g m/s %8g km", (double)wind, (double)fetch / 1000);
+    for (uint32_t i = 0; i < parameters.layers; i++) {
+        double found[3], exact[3];
+        slopes_of_layer(&parameters, i, found, exact);
+        printf(" %7.3f (%.3f)", (found[0] + found[1]) / (exact[0] + exact[1]),
+               (exact[0] + exact[1]) / (all[0] + all[1]));
+    }
+    printf("\n");
 }
 
 static void bands_are_disjoint_and_complete(void **state) {
@@ -192,7 +224,7 @@ static void nonsense_is_refused(void **state) {
     assert_refused(bad);
 }
 
-int main(void) {
+int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_are_those_of_the_spectrum),
         cmocka_unit_test(bands_are_disjoint_and_complete),
@@ -201,5 +233,11 @@ int main(void) {
         cmocka_unit_test(what_layers_lack_is_the_rest),
         cmocka_unit_test(nonsense_is_refused),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    if (count < 2 || strcmp(arguments[1], "slopes") != 0)
+        return cmocka_run_group_tests(tests, NULL, NULL);
+    static const float winds[] = {1, 5, 10, 20, 60}, fetches[] = {1e3f, 1e6f, 1e8f};
+    for (size_t i = 0; i < sizeof winds / sizeof *winds; i++)
+        for (size_t k = 0; k < sizeof fetches / sizeof *fetches; k++)
+            print_slopes(winds[i], fetches[k]);
+    return 0;
 }
