@@ -80,7 +80,7 @@ void passes_displaced_mesh_destroy(displaced_mesh *mesh) {
 // Passes
 
 static void read_mesh(const filter_context *context, uint32_t index, const displaced_mesh *mesh,
-                      lobe_pass *pass) {
+                      lobe_resource vertices, lobe_pass *pass) {
     lobe_graph *graph = context->graph;
     const lobe_binding bindings[] = {
         {.name = "base_point_block", .resource = lobe_graph_import_buffer(graph, mesh->points)},
@@ -88,8 +88,7 @@ static void read_mesh(const filter_context *context, uint32_t index, const displ
         {.name = "corner_block", .resource = lobe_graph_import_buffer(graph, mesh->corners)},
         {.name = "index_block",
          .resource = lobe_graph_import_buffer(graph, context->scene->indices[index])},
-        {.name = "vertex_block",
-         .resource = passes_device_mesh_import(graph, context->scene, index)},
+        {.name = "vertex_block", .resource = vertices},
     };
     for (size_t i = 0; i < sizeof bindings / sizeof *bindings; i++)
         lobe_pass_read(pass, &bindings[i]);
@@ -109,20 +108,37 @@ static void dispatch(lobe_pass *pass, const char *shader, struct pose_constants 
                                         .constants_size = sizeof constants});
 }
 
-void passes_displaced_mesh_pose(const filter_context *context, uint32_t index,
-                                displaced_mesh *mesh) {
+/// Poses the points as `vertices` are.
+static lobe_resource pose(const filter_context *context, uint32_t index, const displaced_mesh *mesh,
+                          lobe_resource vertices, const char *what) {
     char name[64];
-    if (mesh->posed.version > 0)
-        return;
-    snprintf(name, sizeof name, "posed points of mesh %u", index);
+    snprintf(name, sizeof name, "%s of mesh %u", what, index);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "point_pose");
-    read_mesh(context, index, mesh, pass);
-    mesh->posed = lobe_pass_write(
+    read_mesh(context, index, mesh, vertices, pass);
+    const lobe_resource posed = lobe_pass_write(
         pass, &(lobe_binding){.name = "point_block",
                               .resource = declare(context->graph, name,
                                                   mesh->point_count * sizeof(struct posed_point))});
     dispatch(pass, "displacement/point_pose.comp",
              (struct pose_constants){.count = mesh->point_count});
+    return posed;
+}
+
+void passes_displaced_mesh_pose(const filter_context *context, uint32_t index,
+                                displaced_mesh *mesh) {
+    if (mesh->posed.version == 0)
+        mesh->posed =
+            pose(context, index, mesh,
+                 passes_device_mesh_import(context->graph, context->scene, index), "posed points");
+}
+
+void passes_displaced_mesh_pose_before(const filter_context *context, uint32_t index,
+                                       displaced_mesh *mesh) {
+    if (mesh->posed_before.version == 0)
+        mesh->posed_before =
+            pose(context, index, mesh,
+                 passes_device_mesh_import_previous(context->graph, context->scene, index),
+                 "previous points");
 }
 
 lobe_resource passes_displaced_mesh_measure(const filter_context *context, uint32_t index,
@@ -138,7 +154,8 @@ lobe_resource passes_displaced_mesh_measure(const filter_context *context, uint3
     memcpy(constants.map_rows[1], use->transform[1], sizeof use->transform[1]);
     snprintf(name, sizeof name, "chart measures of instance %zu", number);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "chart_measures");
-    read_mesh(context, index, mesh, pass);
+    read_mesh(context, index, mesh,
+              passes_device_mesh_import(context->graph, context->scene, index), pass);
     const lobe_resource measures = lobe_pass_write(
         pass,
         &(lobe_binding){.name = "measure_block",

@@ -27,12 +27,19 @@ typedef struct instance_state {
     bool displaced;
 } instance_state;
 
+/// What was displaced in this frame, and where to.
+typedef struct displaced_instance {
+    displaced_surface surface;
+    patch_buffers buffers;
+} displaced_instance;
+
 struct displacement {
-    displaced_mesh *meshes;       ///< one for each mesh of the scene
-    reduced_map *heights;         ///< one for each image: of this frame; version 0: none yet
-    height_bounds *bounds;        ///< the same; no levels: none yet
-    instance_state *instances;    ///< one for each instance
-    displaced_geometry *geometry; ///< the same: of this frame
+    displaced_mesh *meshes;        ///< one for each mesh of the scene
+    reduced_map *heights;          ///< one for each image: of this frame; version 0: none yet
+    height_bounds *bounds;         ///< the same; no levels: none yet
+    instance_state *instances;     ///< one for each instance
+    displaced_geometry *geometry;  ///< the same: of this frame
+    displaced_instance *displaced; ///< the same
     size_t mesh_count, instance_room;
 };
 
@@ -58,7 +65,11 @@ static bool reserve(displacement *state, size_t count, const lobe_allocator *all
         lobe_reallocate(allocator, state->geometry, room, sizeof *geometry);
     if (geometry)
         state->geometry = geometry;
-    if (!instances || !geometry)
+    displaced_instance *displaced =
+        lobe_reallocate(allocator, state->displaced, room, sizeof *displaced);
+    if (displaced)
+        state->displaced = displaced;
+    if (!instances || !geometry || !displaced)
         return false;
     state->instance_room = room;
     return true;
@@ -96,6 +107,7 @@ void passes_displacement_destroy(displacement **state) {
     lobe_release(s->bounds);
     lobe_release(s->instances);
     lobe_release(s->geometry);
+    lobe_release(s->displaced);
     lobe_release(s);
     *state = NULL;
 }
@@ -262,7 +274,10 @@ static void displace(displacement *state, const filter_context *context, device_
         .bounds = bound_heights(state, context, image),
         .spacing = spacing,
     };
-    state->geometry[index] = passes_displace_patches(context, &surface);
+    const patch_buffers buffers = passes_displace_patches(context, &surface);
+    state->displaced[index] = (displaced_instance){surface, buffers};
+    state->geometry[index] = (displaced_geometry){
+        .vertices = buffers.vertices, .indices = buffers.triangles, .arguments = buffers.arguments};
     const double reach =
         fabs(surface.relief) * passes_transform_stretch(scene->scene->instances[index].transform);
     scene->displaced_reach = fmaxf(scene->displaced_reach, (float)reach);
@@ -290,9 +305,22 @@ void passes_displacement(displacement *state, const filter_context *context, dev
     memset(state->heights, 0, scene->scene->image_count * sizeof *state->heights);
     memset(state->bounds, 0, scene->scene->image_count * sizeof *state->bounds);
     for (size_t i = 0; i < state->mesh_count; i++)
-        state->meshes[i].posed = (lobe_resource){0};
+        state->meshes[i].posed = state->meshes[i].posed_before = (lobe_resource){0};
     for (size_t i = 0; i < scene->instance_count; i++)
         if (!scene->scene->instances[i].hidden && state->instances[i].displaced)
             displace(state, context, scene, i, spacing);
     scene->displaced = state->geometry;
+}
+
+void passes_displacement_before(displacement *state, const filter_context *context) {
+    const device_scene *scene = context->scene;
+    for (size_t i = 0; scene->displaced && i < scene->instance_count; i++) {
+        const uint32_t mesh = scene->instances[i].mesh;
+        if (state->geometry[i].vertices.version == 0 || scene->previous_vertices[mesh].version == 0)
+            continue;
+        const displaced_instance *displaced = &state->displaced[i];
+        passes_displaced_mesh_pose_before(context, mesh, &state->meshes[mesh]);
+        state->geometry[i].previous_vertices =
+            passes_displace_before(context, &displaced->surface, &displaced->buffers);
+    }
 }

@@ -21,6 +21,11 @@ lobe_result passes_displacement_prepare(displacement **state, const filter_conte
 void passes_displacement(displacement *state, const filter_context *context, device_scene *scene,
                          bool cpu);
 
+/// For motion, after meshes have been deformed as in the previous frame: adds passes that write
+/// where the vertices of displaced surfaces were then (`previous_vertices`), as if the camera had
+/// been where it is.
+void passes_displacement_before(displacement *state, const filter_context *context);
+
 void passes_displacement_destroy(displacement **state);
 
 #endif

@@ -157,17 +157,18 @@ static struct displacement_constants constants_of(const filter_context *context,
 // ---------------------------------------------------------------------------------------------
 // Passes
 
-/// The buffers of one instance.
-typedef struct patch_buffers {
-    lobe_resource constants, sizes, bins, offsets, arguments, vertices, triangles;
-} patch_buffers;
-
 static lobe_resource declare(const filter_context *context, const char *what, size_t instance,
                              size_t size) {
     char name[64];
     snprintf(name, sizeof name, "%s of instance %zu", what, instance);
     return lobe_graph_buffer(
         context->graph, &(lobe_buffer_description){.name = name, .size = size, .retained = true});
+}
+
+static lobe_resource declare_vertices(const filter_context *context, const char *what,
+                                      size_t instance, uint32_t room) {
+    return declare(context, what, instance,
+                   (PATCH_FIRST_VERTEX + (size_t)room) * sizeof(lobe_scene_vertex));
 }
 
 static patch_buffers declare_buffers(const filter_context *context, size_t instance,
@@ -181,8 +182,7 @@ static patch_buffers declare_buffers(const filter_context *context, size_t insta
         .offsets = declare(context, "patch offsets", instance, patches * 2 * sizeof(uint32_t)),
         .arguments = declare(context, "patch arguments", instance, PATCH_WORDS * sizeof(uint32_t)),
         .vertices =
-            declare(context, "displaced vertices", instance,
-                    (PATCH_FIRST_VERTEX + constants->vertex_room) * sizeof(lobe_scene_vertex)),
+            declare_vertices(context, "displaced vertices", instance, constants->vertex_room),
         .triangles = declare(context, "displaced triangles", instance,
                              constants->triangle_room * 3 * sizeof(uint32_t)),
     };
@@ -192,9 +192,9 @@ static void read(lobe_pass *pass, const char *name, lobe_resource resource) {
     lobe_pass_read(pass, &(lobe_binding){.name = name, .resource = resource});
 }
 
-/// What both passes that look at places on the mesh read.
+/// What passes that look at places on the mesh read. `points`: its pose.
 static void read_mesh(const filter_context *context, const displaced_surface *surface,
-                      const patch_buffers *buffers, lobe_pass *pass) {
+                      const patch_buffers *buffers, lobe_resource points, lobe_pass *pass) {
     lobe_graph *graph = context->graph;
     const displaced_mesh *mesh = surface->mesh;
     const uint32_t index = context->scene->instances[surface->instance].mesh;
@@ -203,7 +203,7 @@ static void read_mesh(const filter_context *context, const displaced_surface *su
     read(pass, "edge_block", lobe_graph_import_buffer(graph, mesh->edges));
     read(pass, "chart_block", lobe_graph_import_buffer(graph, mesh->charts));
     read(pass, "pair_block", lobe_graph_import_buffer(graph, mesh->pairs));
-    read(pass, "point_block", mesh->posed);
+    read(pass, "point_block", points);
     read(pass, "vertex_block", passes_device_mesh_import(graph, context->scene, index));
 }
 
@@ -220,7 +220,7 @@ static void measure_patches(const filter_context *context, const displaced_surfa
     lobe_pass *clear = lobe_graph_add_pass(context->graph, LOBE_PASS_TRANSFER, "clear");
     buffers->bins = lobe_pass_fill(clear, buffers->bins, (lobe_range){0}, (float[4]){0});
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "patch_sizes");
-    read_mesh(context, surface, buffers, pass);
+    read_mesh(context, surface, buffers, surface->mesh->posed, pass);
     read_heights(context, surface, pass);
     read(pass, "bounds_block", surface->bounds.buffer);
     buffers->sizes =
@@ -251,21 +251,23 @@ static void read_patches(const patch_buffers *buffers, lobe_pass *pass) {
     read(pass, "argument_block", buffers->arguments);
 }
 
-static void write_vertices(const filter_context *context, const displaced_surface *surface,
-                           patch_buffers *buffers) {
+static lobe_resource write_vertices(const filter_context *context, const displaced_surface *surface,
+                                    const patch_buffers *buffers, lobe_resource points,
+                                    lobe_resource vertices) {
     lobe_graph *graph = context->graph;
     const uint32_t index = context->scene->instances[surface->instance].mesh;
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "displaced_vertices");
-    read_mesh(context, surface, buffers, pass);
+    read_mesh(context, surface, buffers, points, pass);
     read_patches(buffers, pass);
     read_heights(context, surface, pass);
     read(pass, "index_block", lobe_graph_import_buffer(graph, context->scene->indices[index]));
-    buffers->vertices = lobe_pass_write(
-        pass, &(lobe_binding){.name = "displaced_block", .resource = buffers->vertices});
+    vertices =
+        lobe_pass_write(pass, &(lobe_binding){.name = "displaced_block", .resource = vertices});
     lobe_pass_dispatch(pass,
                        &(lobe_dispatch){.shader = "displacement/displaced_vertices.comp",
                                         .indirect = buffers->arguments,
                                         .indirect_offset = PATCH_VERTICES * sizeof(uint32_t)});
+    return vertices;
 }
 
 static void write_triangles(const filter_context *context, patch_buffers *buffers) {
@@ -280,14 +282,23 @@ static void write_triangles(const filter_context *context, patch_buffers *buffer
                                         .indirect_offset = PATCH_TRIANGLES * sizeof(uint32_t)});
 }
 
-displaced_geometry passes_displace_patches(const filter_context *context,
-                                           const displaced_surface *surface) {
+patch_buffers passes_displace_patches(const filter_context *context,
+                                      const displaced_surface *surface) {
     const struct displacement_constants constants = constants_of(context, surface);
     patch_buffers buffers = declare_buffers(context, surface->instance, &constants);
     measure_patches(context, surface, constants.row, &buffers);
     place_patches(context, &buffers);
-    write_vertices(context, surface, &buffers);
+    buffers.vertices =
+        write_vertices(context, surface, &buffers, surface->mesh->posed, buffers.vertices);
     write_triangles(context, &buffers);
-    return (displaced_geometry){
-        .vertices = buffers.vertices, .indices = buffers.triangles, .arguments = buffers.arguments};
+    buffers.vertex_room = constants.vertex_room;
+    return buffers;
+}
+
+lobe_resource passes_displace_before(const filter_context *context,
+                                     const displaced_surface *surface,
+                                     const patch_buffers *buffers) {
+    return write_vertices(context, surface, buffers, surface->mesh->posed_before,
+                          declare_vertices(context, "previous displaced vertices",
+                                           surface->instance, buffers->vertex_room));
 }

@@ -20,9 +20,20 @@ typedef struct displaced_surface {
     double spacing;         ///< of vertices, pixels
 } displaced_surface;
 
+/// The buffers of an instance in a frame.
+typedef struct patch_buffers {
+    lobe_resource constants, sizes, bins, offsets, arguments, vertices, triangles;
+    uint32_t vertex_room; ///< of `vertices`, after the first
+} patch_buffers;
+
 /// Adds the passes that cut an instance into patches, choose how finely each is divided for the
 /// camera, and write its vertices and triangles.
-displaced_geometry passes_displace_patches(const filter_context *context,
-                                           const displaced_surface *surface);
+patch_buffers passes_displace_patches(const filter_context *context,
+                                      const displaced_surface *surface);
+/// Adds the pass that writes where these vertices were when the mesh had its previous pose
+/// (`posed_before`); returns a buffer like theirs.
+lobe_resource passes_displace_before(const filter_context *context,
+                                     const displaced_surface *surface,
+                                     const patch_buffers *buffers);
 
 #endif

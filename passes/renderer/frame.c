@@ -77,6 +77,7 @@ static void draw(rendering *r, const frame_delivery *delivery, const shading_tar
         passes_shading(&r->context, &r->renderer->draws, &light, &centre, NULL, targets);
     if (delivery->motion) {
         passes_deform_previous(&r->context, &r->renderer->motion.poses);
+        passes_displacement_before(r->renderer->displacement, &r->context);
         const motion_start start = start_of_motion(r);
         passes_motion(&r->context, &r->renderer->draws, &start, targets);
     }

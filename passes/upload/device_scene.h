@@ -112,6 +112,7 @@ typedef struct device_instance {
 /// lobe_draw_arguments. All zero: the mesh itself.
 typedef struct displaced_geometry {
     lobe_resource vertices, indices, arguments;
+    lobe_resource previous_vertices; ///< all zero: only the transform moves them
 } displaced_geometry;
 
 typedef struct mesh_measures {

@@ -84,13 +84,14 @@ static void draw_background(const filter_context *context, lobe_pass *pass) {
                                       .constants_size = sizeof constants});
 }
 
-/// Displaced vertices are others in each frame: their motion is that of the instance and the
-/// camera.
+/// Displaced vertices are others in each frame: these are those of this frame, where they were.
 static lobe_resource import_previous_vertices(const filter_context *context,
                                               const instance_batch *batch) {
     const device_scene *scene = context->scene;
-    if (batch->displaced.vertices.version > 0)
-        return batch->displaced.vertices;
+    if (batch->displaced.vertices.version > 0) {
+        const lobe_resource before = scene->displaced[batch->instance].previous_vertices;
+        return before.version > 0 ? before : batch->displaced.vertices;
+    }
     return passes_device_mesh_import_previous(context->graph, scene,
                                               scene->instances[batch->instance].mesh);
 }

@@ -84,8 +84,14 @@ static void move_instance(lobe_scene *scene, const pose *taken) {
 }
 
 static lobe_image motion_of(fixture *f) {
-    const lobe_render_parameters wanted = {
-        .filter = filter_named("direct"), .width = WIDTH, .height = HEIGHT, .motion.deliver = true};
+    const lobe_filter *filter = filter_named("direct");
+    const lobe_settings settings = settings_of(
+        filter, (const char *const[]){"displacement=geometry", "pixels_per_vertex=3", NULL});
+    const lobe_render_parameters wanted = {.filter = filter,
+                                           .settings = &settings,
+                                           .width = WIDTH,
+                                           .height = HEIGHT,
+                                           .motion.deliver = true};
     lobe_frame frame;
     if (lobe_renderer_render(f->renderer, &wanted, &frame) != LOBE_OK)
         fail_msg("%s", f->error);
@@ -128,11 +134,11 @@ static lobe_image motion_over(fixture *f, lobe_scene *scene, const size_t order[
     return motion;
 }
 
-static void check_same(const lobe_image *found, const lobe_image *expected) {
+static void check_same(const lobe_image *found, const lobe_image *expected, float pixels) {
     const float *a = found->texels, *b = expected->texels;
     size_t differ = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; i++)
-        differ += !(hypotf(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]) < 1e-3f);
+        differ += !(hypotf(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]) < pixels);
     if (differ > 3) // pixels at an edge
         fail_msg("%zu pixels move differently", differ);
 }
@@ -144,7 +150,7 @@ static void poses_move_like_instances(void **state) {
         lobe_scene *rigid = square(), *posed = posed_square();
         lobe_image expected = motion_over(f, rigid, orders[n], move_instance);
         lobe_image motion = motion_over(f, posed, orders[n], take_pose);
-        check_same(&motion, &expected);
+        check_same(&motion, &expected, 1e-3f);
         assert_true((moving_pixels(&motion) > WIDTH * HEIGHT / 20) ==
                     (orders[n][1] != orders[n][2]));
         lobe_image_free(&expected);
@@ -152,6 +158,43 @@ static void poses_move_like_instances(void **state) {
         assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
         lobe_scene_destroy(&rigid);
         lobe_scene_destroy(&posed);
+    }
+    assert_int_equal(lobe_device_validation_count(f->device), 0);
+}
+
+static void add_relief(lobe_scene *scene) {
+    scene->materials[0].height_map = scene_add_map(scene, random_map(8, 8, 0, 1, 5));
+    scene->materials[0].height_scale = 0.3f;
+}
+
+/// Turned, and as far from the camera: vertices have the same heights.
+static const pose turns[] = {
+    {0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+    {0, {0.96f, 0.28f, 0, 0, -0.28f, 0.96f, 0, 0, 0, 0, 1, 0, 0.1f, 0, 0, 1}},
+};
+
+/// A relief moves with its mesh.
+static void reliefs_move_with_poses(void **state) {
+    fixture *f = *state;
+    for (int i = 0; i < 2; i++) {
+        lobe_image motion[2];
+        for (int k = 0; k < 2; k++) {
+            void (*move)(lobe_scene *, const pose *) = k == 0 ? move_instance : take_pose;
+            lobe_scene *scene = k == 0 ? square() : posed_square();
+            add_relief(scene);
+            move(scene, &turns[i]);
+            assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+            expect_motion(f, 0, 0);
+            move(scene, &turns[1 - i]);
+            motion[k] = motion_of(f);
+            assert_true(moving_pixels(&motion[k]) > 60);
+            expect_motion(f, 0, 0);
+            assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+            lobe_scene_destroy(&scene);
+        }
+        check_same(&motion[1], &motion[0], 0.1f);
+        for (int k = 0; k < 2; k++)
+            lobe_image_free(&motion[k]);
     }
     assert_int_equal(lobe_device_validation_count(f->device), 0);
 }
@@ -190,6 +233,7 @@ static void only_poses_that_change_cost(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(poses_move_like_instances),
+        cmocka_unit_test(reliefs_move_with_poses),
         cmocka_unit_test(only_poses_that_change_cost),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
