@@ -3,6 +3,16 @@
 
 // Which patches may be in the picture, or throw shadows into it: by spheres around what the heights
 // under them can displace, and by the steepest of their slopes.
+//
+// What is not drawn, but nearly, counts in part where room is shared out: from nothing, where it is
+// this part of its radius away, to 1, where it is drawn. Otherwise the distance of all vertices
+// would jump whenever a patch enters the picture.
+const float NEARLY = 0.25;
+
+// Of what is drawn if `inside` is not negative.
+float presence_at(float inside, float radius) {
+    return clamp(1.0 + inside / max(NEARLY * radius, 1e-30), 0.0, 1.0);
+}
 
 #include "displacement/height_bounds.glsl"
 #include "displacement/patches.glsl"
@@ -10,11 +20,11 @@
 // ---------------------------------------------------------------------------------------------
 // The picture
 
-bool is_in_picture(vec3 centre, float radius) {
-    bool seen = true;
+float presence_in_picture(vec3 centre, float radius) {
+    float inside = 1e30;
     for (int i = 0; i < 5; ++i)
-        seen = seen && dot(constants.planes[i], vec4(centre, 1.0)) >= -radius;
-    return seen;
+        inside = min(inside, dot(constants.planes[i], vec4(centre, 1.0)) + radius);
+    return presence_at(inside, radius);
 }
 
 // A shadow is the sphere moved along the light, and grows if the light is near: whether it is
@@ -169,27 +179,28 @@ float steepest_lean(patch_coordinates places, vec3 corners[3], vec3 normal,
     return run > 0.25 ? rise / length(vec2(rise, run)) : 1.0;
 }
 
-bool shows_back(patch_coordinates places, vec3 corners[3], sphere whole,
-                patch_displacement offset, height_bounds heights) {
+float presence_of_front(patch_coordinates places, vec3 corners[3], sphere whole,
+                        patch_displacement offset, height_bounds heights) {
     vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(dot(normal, normal) > 1e-30) || !(dot(offset.mean, offset.mean) > 1e-30))
-        return false;
+        return 1.0;
     float lean = steepest_lean(places, corners, normal, offset, heights);
     vec3 towards = constants.eye.xyz - constants.eye.w * whole.centre;
     float radius = constants.eye.w * whole.radius;
     float height = constants.facing * dot(towards, normalize(normal));
-    return height + radius < -lean * (length(towards) + radius);
+    return presence_at(height + radius + lean * (length(towards) + radius), whole.radius);
 }
 
 // ---------------------------------------------------------------------------------------------
 
 // A function of the edge alone, as both of its patches need the same.
-bool is_edge_in_picture(base_site middle, float size) {
-    return is_in_picture(world_position(site_position(middle)),
-                         0.5 * size + bounds_of_map().greatest * farthest_reach());
+float presence_of_edge(base_site middle, float size) {
+    return presence_in_picture(world_position(site_position(middle)),
+                               0.5 * size + bounds_of_map().greatest * farthest_reach());
 }
 
-bool is_drawn(base_patch parts, base_site sites[3], vec3 corners[3]) {
+// 1: it is drawn.
+float presence_of_patch(base_patch parts, base_site sites[3], vec3 corners[3]) {
     sphere base = sphere_around(corners);
     patch_displacement offset = displacement_of(sites);
     patch_coordinates places = coordinates_of_patch(parts);
@@ -198,11 +209,13 @@ bool is_drawn(base_patch parts, base_site sites[3], vec3 corners[3]) {
         seam ? bounds_of_map()
              : bounds_of_patch(places, widest_spacing(base.centre, base.radius));
     sphere whole = displaced_sphere(base, offset, heights);
-    if (!is_in_picture(whole.centre, whole.radius) &&
-        !has_shadow_in_picture(whole.centre, whole.radius))
-        return false;
+    float presence = presence_in_picture(whole.centre, whole.radius);
+    if (presence < 1.0 && has_shadow_in_picture(whole.centre, whole.radius))
+        presence = 1.0;
     bool may_show_back_alone = constants.facing != 0.0 && constants.caster_count == 0u && !seam;
-    return !may_show_back_alone || !shows_back(places, corners, whole, offset, heights);
+    if (presence > 0.0 && may_show_back_alone)
+        presence *= presence_of_front(places, corners, whole, offset, heights);
+    return presence;
 }
 
 #endif

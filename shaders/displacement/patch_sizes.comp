@@ -59,8 +59,8 @@ float edge_size(base_patch parts, vec3 corners[3]) {
     base_site middle = site_of(place_in_patch(parts, ivec3(1, 1, 0), 2));
     precise float length_of_edge = length(corners[0] - corners[1]);
     float size = min(pixel_size(middle, length_of_edge), log2(patch_texels(parts)));
-    if (constants.caster_count > 0u && !is_edge_in_picture(middle, length_of_edge))
-        size -= float(PATCH_UNSEEN);
+    if (constants.caster_count > 0u)
+        size -= float(PATCH_UNSEEN) * (1.0 - presence_of_edge(middle, length_of_edge));
     return clamp(size, -1.0, float(PATCH_MOST)); // from -1 to 0 it is one segment
 }
 
@@ -77,7 +77,7 @@ vec3 edge_sizes(base_patch parts, vec3 corners[3]) {
     return sizes;
 }
 
-vec4 patch_sizes(uint number) {
+vec4 patch_sizes(uint number, out float presence) {
     base_patch parts = patch_of(number);
     base_site sites[3];
     vec3 corners[3];
@@ -87,7 +87,8 @@ vec4 patch_sizes(uint number) {
         sites[i] = site_of(place_in_patch(parts, weights, 1));
         corners[i] = world_position(site_position(sites[i]));
     }
-    if (!is_drawn(parts, sites, corners))
+    presence = presence_of_patch(parts, sites, corners);
+    if (presence == 0.0)
         return vec4(PATCH_CULLED);
     vec3 sizes = edge_sizes(parts, corners);
     return vec4(sizes, max(max(sizes.x, sizes.y), sizes.z));
@@ -95,12 +96,13 @@ vec4 patch_sizes(uint number) {
 
 // Counts a patch in the two bins above its largest edge's size: half-way between bins in both, so
 // that nothing jumps when sizes change.
-void count_patch(float largest) {
+void count_patch(float largest, float presence) {
     float place = (largest + 1.0) * float(PATCH_STEPS);
     uint bin = min(uint(ceil(place)), PATCH_BINS - 2u); // whatever a driver makes of no number
-    uint units = uint(round((float(bin) - place) * float(PATCH_BIN_UNITS)));
+    uint all = uint(round(presence * float(PATCH_BIN_UNITS)));
+    uint units = uint(round((float(bin) - place) * float(all)));
     atomicAdd(group_bins[bin], units);
-    atomicAdd(group_bins[bin + 1u], PATCH_BIN_UNITS - units);
+    atomicAdd(group_bins[bin + 1u], all - units);
 }
 
 void main() {
@@ -110,10 +112,11 @@ void main() {
         group_bins[i] = 0u;
     barrier();
     if (exists) {
-        vec4 sizes = patch_sizes(number);
-        patches[number] = sizes;
-        if (sizes.w != PATCH_CULLED)
-            count_patch(sizes.w);
+        float presence;
+        vec4 sizes = patch_sizes(number, presence);
+        patches[number] = presence == 1.0 ? sizes : vec4(PATCH_CULLED);
+        if (presence > 0.0)
+            count_patch(sizes.w, presence);
     }
     barrier();
     for (uint i = gl_LocalInvocationIndex; i < PATCH_BINS; i += 64u)

@@ -493,6 +493,31 @@ static void the_limit_does_not_jump(void **state) {
     }
 }
 
+/// Nor where patches that are as large as the picture enter and leave it.
+static void the_limit_does_not_jump_with_patches(void **state) {
+    enum { STEPS = 48 };
+    fixture *f = *state;
+    double last = NAN;
+    lobe_scene *scene = plane_with_heights(8, 1, random_heights(64, 64), 0.02f, 1);
+    for (int i = 0; i <= STEPS; i++) {
+        const float x = 1.4f * (float)i / STEPS;
+        scene->camera = (lobe_camera){.eye = {x, 0.3f, 0.37f * x},
+                                      .target = {x + 0.3f, 0, 0.37f * x + 0.2f},
+                                      .up = {0, 1, 0},
+                                      .vertical_field_of_view = 0.9f,
+                                      .near_plane = 0.01f};
+        drawn_geometry g = displaced_geometry_of(f, scene, 64, "pixels_per_vertex=3");
+        const double found = chosen_spacing(&g);
+        assert_true(found > 0);
+        assert_true(g.triangle_count <= 40 * 64 * 64 / 9 + 4096);
+        if (fabs(found - last) > 0.12)
+            fail_msg("after %d steps: 2^%g after 2^%g", i, found, last);
+        last = found;
+        drawn_geometry_free(&g);
+    }
+    lobe_scene_destroy(&scene);
+}
+
 static lobe_result try_drawing(fixture *f, const lobe_scene *scene) {
     const lobe_filter *filter = filter_named("direct");
     const lobe_settings settings = settings_of(filter, displaced_picture.settings);
@@ -586,6 +611,7 @@ int main(void) {
         cmocka_unit_test(everything_draws_it),
         cmocka_unit_test(geometry_has_a_limit),
         cmocka_unit_test(the_limit_does_not_jump),
+        cmocka_unit_test(the_limit_does_not_jump_with_patches),
         cmocka_unit_test(heights_are_numbers),
         cmocka_unit_test(what_cannot_be_displaced_is_drawn),
         cmocka_unit_test(odd_maps_and_triangles_are_drawn),
