@@ -91,17 +91,17 @@ static void fill_camera(const filter_context *context, struct displacement_const
     fill_casters(context, constants);
 }
 
-/// Room for a surface that fills the picture: for each square of the spacing up to eight triangles
-/// and six vertices, as in small patches, and three to four times that for what is seen at an angle
-/// or outside; and some for shadows. Each patch has one triangle at least.
+/// Room for a surface that fills the picture: for each square of the spacing up to twelve triangles
+/// and seven vertices, as in small patches, and four to five times that for what is seen at an
+/// angle or outside; and some for shadows. Each patch has one triangle at least.
 static void fill_room(const filter_context *context, const displaced_surface *surface,
                       struct displacement_constants *constants) {
     const double pixels = (double)context->view.width * context->view.height;
     const double squares = pixels / (surface->spacing * surface->spacing);
     const double least = constants->caster_count > 0 ? 16384 : 4096;
     const double patches = surface->layout->patches;
-    constants->triangle_room = (uint32_t)fmax(least + fmin(40 * squares, MOST_TRIANGLES), patches);
-    constants->vertex_room = (uint32_t)fmin(fmax(least + 24 * squares, 3 * patches), MOST_VERTICES);
+    constants->triangle_room = (uint32_t)fmax(least + fmin(60 * squares, MOST_TRIANGLES), patches);
+    constants->vertex_room = (uint32_t)fmin(fmax(least + 28 * squares, 3 * patches), MOST_VERTICES);
 }
 
 static uint32_t wrap_of(lobe_scene_wrap wrap) {

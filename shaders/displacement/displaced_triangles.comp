@@ -9,18 +9,20 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 14, std430) writeonly buffer index_block { uint indices[]; };
 
-// With two segments, the line between the two triangles farthest from the largest edge runs from
-// the middle of that edge to the corner opposite. The middles of the other edges may still be at
-// the ends of the largest one: between the three middles would stand a wall.
-void turn_middle(uint number, vec4 sizes, inout ivec3 corners[3]) {
-    int edge = sizes.x == sizes.w ? 0 : sizes.y == sizes.w ? 1 : 2;
-    ivec3 first = ivec3(edge == 0, edge == 1, edge == 2), second = first.zxy, last = second.zxy;
-    bool between = number == 2u, opposite = number == uint[3](3u, 0u, 1u)[edge];
-    for (int i = 0; i < 3; ++i)
-        if (between && corners[i] == last + first)
-            corners[i] = 2 * last;
-        else if (opposite && corners[i] == second + last)
-            corners[i] = first + second;
+uint vertex_of_lattice(int segments, ivec3 weights) {
+    return lattice_number(segments - weights.x, weights.z);
+}
+
+// With two segments, four triangles meet at the vertex in the middle, which replace the two that
+// are farthest from the largest edge; two others are at its ends.
+uint vertex_around(vec4 sizes, uint triangle, int corner) {
+    const int ring[4] = int[4](1, 3, 4, 5);
+    if (triangle >= 2u && corner == 2)
+        return counts_of(2).x - 1u;
+    int number = triangle == 0u   ? int[3](0, 1, 5)[corner]
+                 : triangle == 1u ? int[3](1, 2, 3)[corner]
+                                  : ring[(int(triangle) - 2 + corner) % 4];
+    return vertex_of_lattice(2, point_around(sizes, number));
 }
 
 void main() {
@@ -31,11 +33,11 @@ void main() {
     vec4 sizes = sizes_of_patch(found);
     int segments = segments_of(sizes.w);
     uint first = PATCH_FIRST_VERTEX + offsets[found].x;
+    uint own = number - offsets[found].y;
     ivec3 corners[3];
-    lattice_triangle(segments, number - offsets[found].y, corners);
-    if (segments == 2)
-        turn_middle(number - offsets[found].y, sizes, corners);
+    lattice_triangle(segments, own, corners);
     for (int i = 0; i < 3; ++i)
         indices[3u * number + uint(i)] =
-            first + lattice_number(segments - corners[i].x, corners[i].z);
+            first + (segments == 2 ? vertex_around(sizes, own, i)
+                                   : vertex_of_lattice(segments, corners[i]));
 }

@@ -171,6 +171,39 @@ moving_vertex vertex_of_grid(patch_grid grid, ivec3 weights) {
     return slid_vertex(middle, own, inside ? grown : 1.0);
 }
 
+// With two segments, the middles of the smaller edges may still be at the ends of the largest one:
+// if the vertex in the middle were half-way between them, a wall would stand before the middle of
+// that edge. It lies below that and the opposite corner then, and comes to its place as the smaller
+// edges grow, and before there are more segments.
+float middle_grown(vec4 sizes) {
+    float least = min(min(sizes.x, sizes.y), sizes.z);
+    float second = clamp(sizes.x + sizes.y + sizes.z - least - sizes.w, 0.0, 1.0);
+    return 1.0 - (1.0 - second / sizes.w) * (1.0 - sizes.w * sizes.w);
+}
+
+// How much of the vertex in the middle is each of the four around it.
+float middle_part(vec4 sizes, int number) {
+    float grown = middle_grown(sizes);
+    return 0.5 * (number % 2 == 0 ? 1.0 - grown : grown);
+}
+
+moving_vertex vertex_of_patch(patch_grid grid, uint number) {
+    bool in_middle = grid.segments == 2 && number + 1u == counts_of(2).x;
+    ivec2 place = lattice_row_of(number);
+    moving_vertex sum = moving_vertex(vec3(0.0), vec3(0.0));
+    for (int i = 0; i < (in_middle ? 4 : 1); ++i) {
+        ivec3 weights = in_middle ? point_around(grid.sizes, int[4](1, 3, 4, 5)[i])
+                                  : lattice_point(grid.segments, place.x, place.y);
+        moving_vertex found = vertex_of_grid(grid, weights);
+        if (!in_middle)
+            return found;
+        float part = middle_part(grid.sizes, i);
+        sum = moving_vertex(sum.position + part * found.position,
+                            sum.weights + part * found.weights);
+    }
+    return sum;
+}
+
 // ---------------------------------------------------------------------------------------------
 // What else a vertex has: that of the base mesh
 
@@ -210,9 +243,7 @@ void main() {
     uint found = patch_with(number, 0);
     vec4 sizes = sizes_of_patch(found);
     patch_grid grid = patch_grid(patch_of(found), sizes, segments_of(sizes.w));
-    ivec2 place = lattice_row_of(number - offsets[found].x);
-    ivec3 weights = lattice_point(grid.segments, place.x, place.y);
-    moving_vertex moving = vertex_of_grid(grid, weights);
+    moving_vertex moving = vertex_of_patch(grid, number - offsets[found].x);
     vertex result = base_vertex(grid.parts.triangle, moving.weights);
     for (int i = 0; i < 3; ++i)
         result.position[i] = moving.position[i];

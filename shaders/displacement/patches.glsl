@@ -70,8 +70,19 @@ float segments_grown(float size) {
     return 1.0 - (ceil(size) - size);
 }
 
+// Vertices and triangles. With two segments a patch has a vertex more, in the middle.
 uvec2 counts_of(int segments) {
-    return uvec2((segments + 1) * (segments + 2) / 2, segments * segments);
+    uvec2 lattice = uvec2((segments + 1) * (segments + 2) / 2, segments * segments);
+    return segments == 2 ? lattice + uvec2(1u, 2u) : lattice;
+}
+
+// With two segments: the corners and the middles of the edges, from the end where the largest edge
+// begins: even numbers are corners, and the last corner is opposite of that edge.
+ivec3 point_around(vec4 sizes, int number) {
+    int edge = sizes.x == sizes.w ? 0 : sizes.y == sizes.w ? 1 : 2;
+    ivec3 first = ivec3(edge == 0, edge == 1, edge == 2);
+    ivec3 corners[3] = ivec3[3](first, first.zxy, first.yzx);
+    return corners[number / 2] + corners[(number + 1) / 2 % 3];
 }
 
 // Where a patch is not seen.

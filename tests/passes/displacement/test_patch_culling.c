@@ -176,8 +176,8 @@ static void triangles_follow_the_pixels(void **state) {
     double last = 0;
     for (uint32_t texels = 128; texels <= 512; texels *= 2) {
         lobe_scene *scene = plane_with_heights(8, 0.5f, random_heights(texels, texels), 0.02f, 6);
-        const double few = triangles(f, scene, 256, "pixels_per_vertex=4"),
-                     many = triangles(f, scene, 512, "pixels_per_vertex=4");
+        const double few = triangles(f, scene, 256, "pixels_per_vertex=2"),
+                     many = triangles(f, scene, 512, "pixels_per_vertex=2");
         if (fabs(many / few - 4) > 0.5)
             fail_msg("%u texels: %g triangles at 256 pixels, %g at 512", texels, few, many);
         if (last > 0 && fabs(many / last - 1) > 0.2)
