@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+/// A mask may cut by the alpha of the host's vertices, also where its material alone keeps all:
+/// with colours they are the host's to give.
 static void fill_mesh(material_scene *scene, bool vertex_colours) {
     static const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     for (uint32_t i = 0; i < 3; i++) {
@@ -17,6 +19,7 @@ static void fill_mesh(material_scene *scene, bool vertex_colours) {
                               .indices = scene->indices,
                               .index_count = 3,
                               .has_colour = vertex_colours,
+                              .on_device = vertex_colours,
                               .maximum = {1, 1, 0}};
 }
 

@@ -470,7 +470,7 @@ int main(int argc, char **argv) {
     lobe_scene *scene = NULL;
     lobe_environment *environment = NULL;
     lobe_maps *maps = NULL;
-    lobe_maps_parameters parameters = {0};
+    lobe_maps_parameters parameters = {.vertex_colours = true}; // white where a mesh has none
     lobe_result result =
         lobe_vulkan_import_device(&h.vulkan, &(lobe_device_parameters){.host = &messages}, &device);
     result = result ? result : lobe_filter_find(argv[1], &messages, &parameters.filter);

@@ -31,7 +31,8 @@ typedef struct lobe_maps_parameters {
     const lobe_scene *scene;
     const lobe_filter *filter;     ///< not one that supersamples; NULL: "moments"
     const lobe_settings *settings; ///< copied; NULL: the filter's defaults
-    bool vertex_colours;           ///< the host's surfaces have colours that tint the materials
+    /// The host's surfaces have colours that tint the materials, and by whose alpha masks may cut.
+    bool vertex_colours;
     /// For how many lights the host's shader fetches at once, [1, 4]; 0: 1.
     uint32_t lights_at_once;
     uint32_t frames_in_flight; ///< see lobe_graph_set_frames_in_flight; 0: 1

@@ -1,5 +1,6 @@
 // A compute pipeline of a host evaluates what lobe filters, on the host's device: lights at once
-// are as one by one, and changed texels reach a pipeline and descriptors that stay as they are.
+// are as one by one, changed texels reach a pipeline and descriptors that stay as they are, and
+// masks cut by the host's own vertex colours.
 
 #include "tests/passes/support/fixture.h"
 
@@ -23,7 +24,7 @@ enum { MAP = 16, POINTS = 64, CONSTANT_BASE = 7 };
 
 #define CHECK(call) assert_int_equal(call, VK_SUCCESS)
 
-/// Sums over the lights, one by one and at once.
+/// Sums over the lights, one by one and at once; the first with whether the mask keeps the point.
 typedef struct result {
     float one_by_one[4], at_once[4];
 } result;
@@ -232,6 +233,31 @@ static void encodings_reach_the_hosts_shader(void **state) {
     }
 }
 
+/// The material alone keeps all of its points. Without colours, their alpha is not read.
+static void masks_cut_by_the_alpha_of_vertices(void **state) {
+    (void)state;
+    subject s;
+    open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
+    s.scene->materials[0].alpha_mask = true;
+    s.scene->materials[0].alpha_cutoff = 0.5f;
+    s.scene->materials[0].base_colour_map = LOBE_TEXTURE_NONE;
+    for (int colours = 0; colours < 2; colours++) {
+        host_evaluation e = {0};
+        result results[POINTS];
+        const lobe_maps_parameters parameters = {
+            .scene = s.scene, .filter = filter_named("lean"), .vertex_colours = colours};
+        lobe_maps *maps;
+        assert_int_equal(lobe_maps_create(s.device, &parameters, &s.host.recorder.host, &maps),
+                         LOBE_OK);
+        evaluate(&s, maps, &e, results);
+        for (int i = 0; i < POINTS; i++)
+            assert_true(results[i].one_by_one[3] == (colours && i % 2 ? 0 : 1));
+        host_evaluation_end(&e);
+        lobe_maps_destroy(&maps);
+    }
+    close_subject(&s);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Waves
 
@@ -331,6 +357,7 @@ int main(void) {
         cmocka_unit_test(changed_texels_reach_the_same_pipeline),
         cmocka_unit_test(an_image_of_the_host_is_read_in_place),
         cmocka_unit_test(encodings_reach_the_hosts_shader),
+        cmocka_unit_test(masks_cut_by_the_alpha_of_vertices),
         cmocka_unit_test(waves_reach_the_hosts_shader),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

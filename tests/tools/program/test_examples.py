@@ -1,14 +1,16 @@
 """Runs the programs of tools/examples, which use only the public library."""
 
+import base64
 import json
 import os
 import re
+import struct
 import subprocess
 import sys
 from pathlib import Path
 
 import tap
-from files import exr_header, exr_pixels, exr_texels
+from files import exr_header, exr_pixels, exr_texels, gltf_triangle, gltf_write
 from program import FOLDER, check, report, succeeds
 
 EXAMPLES = Path(sys.argv[3]).resolve()
@@ -104,6 +106,27 @@ def test_own_shading_draws_what_render_draws():
 
 def test_own_shading_has_many_materials():
     draws_the_same("moments", "pillow", 64, 36)
+
+
+def test_own_shading_has_vertex_colours():
+    """Two-sided, and cut off where their alpha falls below a half."""
+    document = gltf_triangle()
+    colours = struct.pack("<12f", 1, 0.2, 0.1, 1, 0.1, 1, 0.2, 1, 0.2, 0.1, 1, 0)
+    data = base64.b64encode(colours).decode()
+    document["buffers"].append({"byteLength": 48,
+                                "uri": "data:application/octet-stream;base64," + data})
+    document["bufferViews"].append({"buffer": 1, "byteLength": 48})
+    document["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 3,
+                                  "type": "VEC4"})
+    document["materials"] = [{"alphaMode": "MASK", "doubleSided": True}]
+    document["meshes"][0]["primitives"][0] |= {
+        "attributes": {"POSITION": 0, "COLOR_0": 2}, "material": 0}
+    document["extensionsUsed"] = ["KHR_lights_punctual"]
+    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional"}]}}
+    document["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
+    scene = FOLDER / "colours.gltf"
+    gltf_write(scene, document)
+    draws_the_same("moments", scene, 96, 54)
 
 
 def test_own_shading_has_an_environment():
