@@ -127,8 +127,11 @@ typedef struct lobe_render_target {
     /// A colour attachment. Receives linear radiance, converted to its format (an _SRGB format
     /// encodes it; neither exposure nor tone mapping is applied), and coverage as alpha.
     const lobe_vulkan_image *radiance;
-    /// D32_FLOAT, reversed: 1 at the near plane, 0 at infinity. NULL: an image of lobe's own; the
-    /// reference requires that.
+    /// D32_FLOAT, reversed: near_plane / distance along the view, so 1 at the near plane and 0 at
+    /// infinity. Of an orthographic camera it falls linearly, from 1 at the near plane to 0 at 1.01
+    /// times the distance of the farthest corner of the scene's bounds, which displaced geometry
+    /// widens on all sides by its largest height. NULL: an image of lobe's own; the reference
+    /// requires that.
     const lobe_vulkan_image *depth;
     /// Receives motion, converted to its format of two or more channels (R16G16_SFLOAT), and makes
     /// lobe compute it: see lobe_render_motion. NULL: none; the reference requires that.

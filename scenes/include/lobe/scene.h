@@ -240,7 +240,9 @@ typedef struct lobe_camera {
                                   ///< to any side
     float vertical_field_of_view; ///< radians, below pi; 0 for an orthographic camera
     float orthographic_height;    ///< metres across, above 0 where the field of view is 0
-    float near_plane;             ///< metres, above 0; the far plane is at infinity
+    /// Metres, above 0. The far plane is at infinity; of an orthographic camera it lies behind the
+    /// bounds of the scene, which must hold all that is to be seen.
+    float near_plane;
     /// How far the picture's centre lies off the view's axis: to the right and down, in heights of
     /// the picture. (0, 0): on the axis. For tiles of a larger picture and for the two eyes of a
     /// headset.

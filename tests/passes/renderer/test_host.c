@@ -140,6 +140,26 @@ static void the_hosts_image_gets_the_same_bits(void **state) {
     lobe_frame_free(&expected);
 }
 
+/// A host draws what lies before and behind with the same depths.
+static void depths_follow_from_the_camera(void **state) {
+    host_fixture *f = *state;
+    lobe_camera camera = f->scene->camera; // 4 m above the square, which is level
+    camera.near_plane = 0.5f;
+    for (int perspective = 0; perspective < 2; perspective++) {
+        camera.vertical_field_of_view = perspective ? 0.5f : 0;
+        lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        lobe_vulkan_image depth = lend(&f->depth, depth_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+        const lobe_render_target target = {.radiance = &colour, .depth = &depth};
+        lobe_frame frame =
+            render(f, &(lobe_render_parameters){.camera = &camera, .host.target = &target});
+        float texels[SIZE * SIZE];
+        host_read(&f->host, &f->depth, texels, sizeof texels);
+        assert_float_equal(texels[SIZE / 2 * SIZE + SIZE / 2],
+                           perspective ? 0.5 / 4 : 1 - (4 - 0.5) / (1.01 * 4 - 0.5), 1e-5);
+        lobe_frame_free(&frame);
+    }
+}
+
 static void other_outputs_are_still_delivered(void **state) {
     host_fixture *f = *state;
     lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
@@ -530,6 +550,7 @@ static void mistakes_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_hosts_image_gets_the_same_bits),
+        cmocka_unit_test(depths_follow_from_the_camera),
         cmocka_unit_test(other_outputs_are_still_delivered),
         cmocka_unit_test(lobe_draws_over_what_the_host_drew),
         cmocka_unit_test(many_lights_are_drawn_over_what_the_host_drew),
