@@ -33,6 +33,11 @@ lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph) {
     return result;
 }
 
+void lobe_graph_keep_apart(lobe_graph *graph) {
+    if (graph)
+        graph->kept.uploads.apart = true;
+}
+
 static void reset_frame(lobe_graph *graph) {
     engine_graph_release_imports(graph);
     engine_dependency_graph_reset(&graph->frame.dependencies);

@@ -17,7 +17,8 @@ static uint64_t number_of(const engine_uploads *queue) {
 bool engine_upload_target_create(lobe_device *device, engine_uploads *queue, uint64_t bytes,
                                  engine_upload_state *state) {
     *state = (engine_upload_state){.queue = queue, .created = queue ? queue->ring.next : 0};
-    if (bytes >= LEAST_SHARED && !(state->shared = engine_shared_create(device, number_of(queue))))
+    const bool shares = bytes >= LEAST_SHARED && !(queue && queue->apart);
+    if (shares && !(state->shared = engine_shared_create(device, number_of(queue))))
         return false;
     if (!queue || engine_discards_reserve(device, &queue->ring.discards))
         return true;

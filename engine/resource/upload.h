@@ -39,6 +39,7 @@ typedef struct engine_uploads {
     uint32_t count, capacity, barrier_capacity;
     uint64_t number;     ///< an engine_device_stamp; 0: of no graph
     bool started;        ///< a frame has begun
+    bool apart;          ///< see lobe_graph_keep_apart
     uint64_t unsent;     ///< ring position: a frame that ends there may not be submitted yet
     VkCommandBuffer own; ///< the last submission without a frame, not waited for; or NULL
     uint64_t own_value, own_end; ///< of the device's timeline, and its position in the ring

@@ -88,9 +88,11 @@ static lobe_result fill(lobe_maps *maps, lobe_device *device) {
     if (!allocate_tables(maps))
         return lobe_host_fail(host, LOBE_ERROR_OUT_OF_MEMORY, "maps: out of memory");
     result = lobe_graph_create(device, &maps->graph);
-    if (result == LOBE_OK)
-        result = passes_device_scene_create_for_changing_texels(
-            device, maps->graph, &maps->materials->scene, host, &maps->uploaded);
+    if (result != LOBE_OK)
+        return result;
+    lobe_graph_keep_apart(maps->graph);
+    result = passes_device_scene_create_for_changing_texels(
+        device, maps->graph, &maps->materials->scene, host, &maps->uploaded);
     if (result != LOBE_OK)
         return result;
     const filter_context context = context_of(maps, &images);

@@ -210,7 +210,8 @@ lobe_resource lobe_graph_image(lobe_graph *graph, const lobe_image_description *
                                       .layers = at_least_one(image.layers),
                                       .levels = at_least_one(image.levels),
                                       .samples = at_least_one(image.samples),
-                                      .shared = image.retained && image.shared,
+                                      .shared = image.retained && image.shared &&
+                                                !graph->kept.uploads.apart,
                                       .permanent = image.retained && image.permanent};
     return declare(graph, &resource, image.retained);
 }

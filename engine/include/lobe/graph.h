@@ -69,6 +69,12 @@ LOBE_API lobe_result lobe_graph_create(lobe_device *device, lobe_graph **graph);
 /// allowed.
 LOBE_API void lobe_graph_destroy(lobe_graph **graph);
 
+/// Gives the graph memory of its own for all that it makes from now on, also where other graphs of
+/// the device have the same. What is shared changes its handles when one of the graphs changes it:
+/// a graph whose exports (lobe_pass_export) are to keep theirs is kept apart, before it makes
+/// anything.
+LOBE_API void lobe_graph_keep_apart(lobe_graph *graph);
+
 /// Starts a new frame: drops the passes of the last one, and waits for it if it is still running
 /// (see lobe_graph_set_frames_in_flight). Retained resources that the new frame does not declare
 /// again are freed when it is compiled, except for permanent ones.
@@ -343,8 +349,9 @@ typedef struct lobe_export {
 /// Export passes: makes the bindings of `exported` and those that the pass reads visible to all
 /// shaders of the host, and gives them as descriptors (lobe_graph_exported).
 /// Images must be retained, textures, or of the host with a view. Of buffers, copies are exported.
-/// Both keep their handles while later frames export the same, and their content until such a frame
-/// changes it. The pass and what it depends on is kept.
+/// Both keep their handles while later frames export the same, unless other graphs share the image
+/// (lobe_graph_keep_apart), and their content until such a frame changes it. The pass and what it
+/// depends on is kept.
 LOBE_API void lobe_pass_export(lobe_pass *pass, const lobe_export *exported);
 
 /// The descriptors of the frame's export number `index`, in order of declaration; NULL if there is

@@ -132,6 +132,25 @@ static void handles_and_constants_stay_while_texels_change(void **state) {
     }
 }
 
+/// Also where others have the same maps, and keep them.
+static void handles_stay_beside_others_of_the_same_scene(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(2);
+    lobe_maps *others = make_maps(f, scene, "lean");
+    record(f, others);
+    lobe_maps *maps = make_maps(f, scene, "lean");
+    record(f, maps);
+    const material_copy before = copy_material(f, maps), theirs = copy_material(f, others);
+    const material_copy after = changed_material(f, maps, scene, 0.5f, false);
+    assert_same(&before, &after);
+    assert_int_equal(lobe_maps_update(others, &(lobe_scene_changes){0}), LOBE_OK);
+    record(f, others);
+    const material_copy unchanged = copy_material(f, others);
+    assert_same(&theirs, &unchanged);
+    lobe_maps_destroy(&others);
+    end(f, &maps, &scene);
+}
+
 static void metal_that_begins_to_vary_changes_constants_once(void **state) {
     fixture *f = *state;
     lobe_scene *scene = mapped_scene(2);
@@ -278,6 +297,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_has_not_changed_is_not_recorded),
         cmocka_unit_test(handles_and_constants_stay_while_texels_change),
+        cmocka_unit_test(handles_stay_beside_others_of_the_same_scene),
         cmocka_unit_test(metal_that_begins_to_vary_changes_constants_once),
         cmocka_unit_test(images_may_be_on_the_device),
         cmocka_unit_test(mistakes_are_named),

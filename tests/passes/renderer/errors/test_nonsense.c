@@ -195,6 +195,7 @@ static void graphs_that_are_none(void **state) {
     lobe_graph_destroy(NULL);
     lobe_graph_begin(NULL);
     lobe_graph_begin_aside(NULL);
+    lobe_graph_keep_apart(NULL);
     assert_int_equal(lobe_graph_image(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_buffer(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_import_texture(NULL, NULL).version, 0);
