@@ -146,7 +146,8 @@ static void find_equal_sets(const device_scene *scene, device_material *material
 /// The same of where this changes.
 static void find_mask(device_scene *scene, device_material *material) {
     const bool before = material->masked;
-    material->masked = (before && scene->keeps_conclusions) || passes_mask_may_cut(scene, material);
+    material->masked = material->material->alpha_mask && ((before && scene->keeps_conclusions) ||
+                                                          passes_mask_may_cut(scene, material));
     material->version += material->masked != before;
     material->parameter_version += material->masked != before;
 }

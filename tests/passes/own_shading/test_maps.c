@@ -151,6 +151,29 @@ static void handles_stay_beside_others_of_the_same_scene(void **state) {
     end(f, &maps, &scene);
 }
 
+/// A mask stays where texels are changed to keep all, and goes with the material's.
+static void a_mask_goes_with_that_of_its_material(void **state) {
+    static const uint32_t first = 0;
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(6);
+    lobe_maps *never = make_maps(f, scene, "lean");
+    record(f, never);
+    scene->materials[0].alpha_mask = true;
+    scene->materials[0].alpha_cutoff = 0.5f;
+    lobe_maps *maps = make_maps(f, scene, "lean");
+    record(f, maps);
+    const material_copy expected = copy_material(f, never), masked = copy_material(f, maps);
+    assert_memory_not_equal(expected.constants, masked.constants, sizeof masked.constants);
+    scene->materials[0].alpha_mask = false;
+    const lobe_scene_changes changes = {.materials = &first, .material_count = 1};
+    assert_int_equal(lobe_maps_update(maps, &changes), LOBE_OK);
+    record(f, maps);
+    const material_copy plain = copy_material(f, maps);
+    assert_memory_equal(expected.constants, plain.constants, sizeof plain.constants);
+    lobe_maps_destroy(&never);
+    end(f, &maps, &scene);
+}
+
 static void metal_that_begins_to_vary_changes_constants_once(void **state) {
     fixture *f = *state;
     lobe_scene *scene = mapped_scene(2);
@@ -298,6 +321,7 @@ int main(void) {
         cmocka_unit_test(what_has_not_changed_is_not_recorded),
         cmocka_unit_test(handles_and_constants_stay_while_texels_change),
         cmocka_unit_test(handles_stay_beside_others_of_the_same_scene),
+        cmocka_unit_test(a_mask_goes_with_that_of_its_material),
         cmocka_unit_test(metal_that_begins_to_vary_changes_constants_once),
         cmocka_unit_test(images_may_be_on_the_device),
         cmocka_unit_test(mistakes_are_named),
