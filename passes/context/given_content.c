@@ -2,6 +2,9 @@
 
 #include <string.h>
 
+#include "passes/upload/material_maps.h"
+#include "passes/upload/scene_check.h"
+
 /// `kind`: "image" or "mesh".
 static void fail(const filter_context *context, const char *kind, const char *name,
                  const char *what) {
@@ -27,6 +30,11 @@ static bool can_be_sampled(const lobe_image_description *image) {
            image->format != LOBE_FORMAT_D32_FLOAT;
 }
 
+/// As for uploaded images, whatever map a material has it as.
+static bool lacks_sign(const lobe_scene_image *image, lobe_format given) {
+    return passes_normals_are_signed(image->normals) && !passes_format_has_sign(given);
+}
+
 static void check_given(const filter_context *context, uint32_t index,
                         const lobe_image_description *given) {
     const lobe_scene *scene = context->scene->scene;
@@ -47,6 +55,11 @@ static void check_given(const filter_context *context, uint32_t index,
                         "expected one each, of colours",
                         scene->name, image->name, given->levels, given->layers,
                         given->samples > 0 ? given->samples : 1, lobe_format_name(given->format));
+    else if (lacks_sign(image, given->format))
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: image '%s' has signed normals, but the host gave the format %s, which "
+                        "has no sign",
+                        scene->name, image->name, lobe_format_name(given->format));
 }
 
 static void check_image(const filter_context *context, uint32_t index) {

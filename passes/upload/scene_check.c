@@ -54,8 +54,9 @@ static lobe_result check_texels(const lobe_scene *scene, size_t index, const lob
     return LOBE_OK;
 }
 
-static bool has_sign(lobe_format format) {
+bool passes_format_has_sign(lobe_format format) {
     switch (format) {
+    case LOBE_FORMAT_BC5_SNORM:
     case LOBE_FORMAT_RG8_SNORM:
     case LOBE_FORMAT_RGBA8_SNORM:
     case LOBE_FORMAT_RG16_SNORM:
@@ -66,7 +67,7 @@ static bool has_sign(lobe_format format) {
     }
 }
 
-/// What the host gives on the device has a format of its own.
+/// What the host gives on the device has a format of its own, which is checked when it is given.
 static lobe_result check_encoding(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_scene_image *image = &scene->images[index];
     if ((unsigned)image->normals > LOBE_NORMALS_SIGNED_XY)
@@ -74,7 +75,7 @@ static lobe_result check_encoding(const lobe_scene *scene, size_t index, const l
                               "%s: image '%s': there is no encoding of normals %d", scene->name,
                               image->name, (int)image->normals);
     if (!passes_normals_are_signed(image->normals) || image->on_device ||
-        has_sign(image->image.format))
+        passes_format_has_sign(image->image.format))
         return LOBE_OK;
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                           "%s: image '%s': signed normals in the format %s, which has no sign",

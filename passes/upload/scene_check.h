@@ -6,6 +6,9 @@
 /// Checks of a scene from a host or a file before it is uploaded: the device itself checks nothing.
 /// The first error is logged in one line, and LOBE_ERROR_MALFORMED is returned.
 
+/// Whether its channels can be negative: signed normals need that.
+bool passes_format_has_sign(lobe_format format);
+
 /// There is something to draw, and an array wherever there is a count.
 lobe_result passes_scene_check_arrays(const lobe_scene *scene, const lobe_host *host);
 /// There is an array of instances if they are counted, and they can be numbered (LOBE_ERROR_LIMIT).

@@ -492,6 +492,11 @@ static void mistakes_are_named(void **state) {
     image.levels = 1;
     image.format = LOBE_FORMAT_D32_FLOAT;
     assert_refused(f, give_described, &image, "1 samples of D32_FLOAT; expected one each");
+    scene->images[0].normals = LOBE_NORMALS_SIGNED_XY;
+    image.format = LOBE_FORMAT_RG16_UNORM;
+    assert_refused(f, give_described, &image,
+                   "signed normals, but the host gave the format RG16_UNORM, which has no sign");
+    scene->images[0].normals = LOBE_NORMALS_UNSIGNED;
     hash_of(f, "moments", &g);
     unset(f, &scene);
     giver_free(&g);
