@@ -148,7 +148,8 @@ float harmonic_of_lobe(int degree, int order, reflection_lobe lobe) {
 
 // The lobe that completes the polynomials.
 reflection_lobe lobe_beside_polynomial(float cosine, float roughness) {
-    reflection_lobe lobe = lobe_of_reflection(DISTRIBUTION == DISTRIBUTION_GGX, cosine, roughness);
+    const float tails = float(DISTRIBUTION == DISTRIBUTION_GGX);
+    reflection_lobe lobe = lobe_of_reflection(tails, cosine, roughness);
     lobe = mixed_lobe(lobe, lobe_of_grazing_reflection(cosine, roughness),
                       albedo.y / max(albedo.x * (1.0 - lobe.diffuse_share) + albedo.y, 1e-10));
     return completed_lobe(lobe, cosine, 1.0);

@@ -126,6 +126,31 @@ horizon_cut cut_by_horizon(direction_lobe lobe, vec3 plane_normal) {
     return cut_by_plane(lobe, plane_normal, 2.0 * level / (1.0 + level));
 }
 
+// The same where a relief hides light: of directions lower than `top`, in proportion to their
+// height. 0: a plane.
+horizon_cut cut_by_relief(direction_lobe lobe, vec3 plane_normal, float top) {
+    if (top <= 0.0)
+        return cut_by_horizon(lobe, plane_normal);
+    float a = dot(lobe.first, plane_normal), b = dot(lobe.second, plane_normal);
+    float deviation = sqrt(max(a * a + b * b, 1e-12));
+    float height = dot(lobe.axis, plane_normal);
+    faded_part part = faded_below(height / deviation, top / deviation);
+    return horizon_cut(part.share, (part.shift / deviation) * (a * lobe.first + b * lobe.second),
+                       part.variance);
+}
+
+// The same of facets as large as they appear from where `plane_normal` points; `share` is that of
+// facets that face it.
+horizon_cut cut_by_area(direction_lobe lobe, vec3 plane_normal) {
+    float a = dot(lobe.first, plane_normal), b = dot(lobe.second, plane_normal);
+    float deviation = sqrt(max(a * a + b * b, 1e-12));
+    float x = clamp(dot(lobe.axis, plane_normal) / deviation, -3.0, 10.0);
+    float share = normal_below(x), density = normal_density(x);
+    float area = max(x * share + density, 1e-4), mean = share / area;
+    return horizon_cut(share, (mean / deviation) * (a * lobe.first + b * lobe.second),
+                       clamp(1.0 + density / area - mean * mean, 0.05, 1.0));
+}
+
 // A lobe moved by `shift` towards `up` and made narrower in that direction.
 direction_lobe moved_lobe(direction_lobe lobe, vec3 up, float shift, float variance) {
     float narrower = sqrt(variance) - 1.0;
@@ -139,14 +164,16 @@ vec3 direction_of(vec3 shift) {
 }
 
 // `own` is the lobe without varying normals, which the horizon of its own normal has already cut:
-// the surface's horizon takes only what lies beyond. Scales `share`.
-direction_lobe lobe_above_surface(direction_lobe lobe, direction_lobe own, vec3 normal,
+// the surface's horizon takes only what lies beyond. `top`: see cut_by_relief(). Scales
+// `share`, but for a relief, of which the caller knows the share.
+direction_lobe lobe_above_surface(direction_lobe lobe, direction_lobe own, vec3 normal, float top,
                                   inout float share) {
     if (HORIZON == HORIZON_IGNORED)
         return lobe;
     horizon_cut before = cut_by_horizon(own, normal);
-    horizon_cut cut = cut_by_horizon(lobe, SURFACE_NORMAL);
-    share *= min(cut.share / max(before.share, 0.05), 1.0);
+    horizon_cut cut = cut_by_relief(lobe, SURFACE_NORMAL, top);
+    if (top <= 0.0)
+        share *= min(cut.share / max(before.share, 0.05), 1.0);
     if (HORIZON == HORIZON_FADED)
         return lobe;
     vec3 up = direction_of(cut.shift);
@@ -155,8 +182,10 @@ direction_lobe lobe_above_surface(direction_lobe lobe, direction_lobe own, vec3 
 }
 
 // Facets that face away reflect nothing: the lobe of the normals that are left, and their share.
-direction_lobe facing_lobe(direction_lobe normals, vec3 outgoing, out float share) {
-    horizon_cut cut = cut_by_plane(normals, outgoing, 1.0);
+direction_lobe facing_lobe(direction_lobe normals, vec3 outgoing, bool by_area,
+                           out float share) {
+    horizon_cut cut =
+        by_area ? cut_by_area(normals, outgoing) : cut_by_plane(normals, outgoing, 1.0);
     share = cut.share;
     return moved_lobe(normals, direction_of(cut.shift), length(cut.shift), cut.variance);
 }
@@ -235,14 +264,24 @@ facing_reflection broad_facing_reflection(surface_point surface, vec3 normal, ui
                              f0 * (albedo.x * light.f0) + albedo.y * light.f90);
 }
 
+// How much of a lobe has the long tails of the base lobe: its part of the variance. Normals vary by
+// `variance`, half of it each way.
+float tails_of_base(float variance, float roughness) {
+    float alpha = roughness * roughness;
+    return alpha * alpha / max(alpha * alpha + variance, 1e-10);
+}
+
 // The lobe that is fitted to what microfacets reflect, and light as rough surfaces gather it.
-// `broad`: how much of it is a lobe and a polynomial instead [0, 1].
+// `broad`: how much of it is a lobe and a polynomial instead [0, 1]. `top`: see cut_by_relief().
 vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
-                     vec4 albedo, float roughness, float broad, bool spread_out) {
+                     vec4 albedo, float roughness, float broad, bool spread_out, float top) {
     float cosine = dot(normals.axis, surface.outgoing);
-    bool tails = kind == DISTRIBUTION_GGX ||
-                 (BROAD_REFLECTION != 0u && kind == DISTRIBUTION_VMF &&
-                  DISTRIBUTION == DISTRIBUTION_GGX);
+    float tails = float(kind == DISTRIBUTION_GGX ||
+                        (BROAD_REFLECTION != 0u && kind == DISTRIBUTION_VMF &&
+                         DISTRIBUTION == DISTRIBUTION_GGX));
+    if (top > 0.0)
+        tails *= tails_of_base(dot(normals.first, normals.first) +
+                                   dot(normals.second, normals.second), roughness);
     reflection_lobe base = lobe_of_reflection(tails, cosine, roughness);
     const float diffuse_share = base.diffuse_share;
     facing_reflection reflection;
@@ -262,7 +301,7 @@ vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, v
                                      dot(normals.second, normals.second)), 0.3);
     }
     float share = 1.0;
-    incoming = lobe_above_surface(incoming, own, normals.axis, share);
+    incoming = lobe_above_surface(incoming, own, normals.axis, top, share);
     if (CLOSED)
         share = 1.0;
     reflection.gathered = broad < 1.0 ? f0 * (albedo.x * diffuse_share) *
@@ -281,7 +320,7 @@ vec3 reflect_as_lobe(surface_point surface, direction_lobe normals, uint kind, v
 }
 
 vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, vec3 f0,
-                    float parameter, bool spread_out) {
+                    float parameter, bool spread_out, float top) {
     float cosine = dot(normals.axis, surface.outgoing);
     if (cosine <= 0.0)
         return vec3(0.0);
@@ -300,7 +339,7 @@ vec3 reflect_facing(surface_point surface, direction_lobe normals, uint kind, ve
     float rest = 1.0 - shares.lobes;
     if (rest > 0.0)
         sum += rest * reflect_as_lobe(surface, normals, kind, f0, albedo, roughness,
-                                      shares.polynomial / rest, spread_out);
+                                      shares.polynomial / rest, spread_out, top);
     return scattering_scale(albedo, f0) * sum;
 }
 
@@ -330,45 +369,53 @@ direction_lobe part_of_normals(direction_lobe normals, normal_parts parts, uint 
                           narrower * (normals.second - dot(normals.second, axis) * turned));
 }
 
-// `in_parts`: where normals vary by much, light is found for four parts of them.
+// How normals that vary are seen, and what they see.
+struct facet_view {
+    bool in_parts; // where normals vary by much, light is found for four parts of them
+    bool by_area;  // each counts as large as it appears, not all alike
+    float top;     // see cut_by_relief()
+};
+
+const facet_view VIEW_OF_MAP = facet_view(false, false, 0.0);
+
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                             float parameter, bool in_parts) {
+                             float parameter, facet_view view) {
     bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
     if (!spread_out)
-        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false);
+        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false, view.top);
     direction_lobe normals =
         lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
     normal_parts parts = normal_parts(1u, 0.0);
-    if (in_parts)
+    if (view.in_parts)
         parts = parts_of_normals(normals, roughness_from_parameter(DISTRIBUTION, parameter));
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < parts.count; ++i) {
         float share;
         direction_lobe facing =
-            facing_lobe(in_parts ? part_of_normals(normals, parts, i) : normals, surface.outgoing,
-                        share);
+            facing_lobe(view.in_parts ? part_of_normals(normals, parts, i) : normals,
+                        surface.outgoing, view.by_area, share);
         if (CLOSED)
             share = 1.0;
-        sum += share * reflect_facing(surface, facing, lobe.kind, f0, parameter, true);
+        sum += share * reflect_facing(surface, facing, lobe.kind, f0, parameter, true, view.top);
     }
     return sum / float(parts.count);
 }
 
 // `parameter` is that of the base lobes and determines masking. Of closed surfaces, samples include
 // which part of the light passes the upright facets; the other methods return what is reflected if
-// all of it does. `in_parts`: see prefiltered_microfacets.
+// all of it does. `view`: by the default method alone.
 vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
-                         float parameter, bool in_parts) {
+                         float parameter, facet_view view) {
     if (sampled_by_grid())
         return sampled_microfacets(surface, lobe, f0, parameter, CLOSED);
     return ENVIRONMENT_METHOD == ENVIRONMENT_MIP
                ? microfacets_by_mip(surface, lobe, f0, parameter)
-               : prefiltered_microfacets(surface, lobe, f0, parameter, in_parts);
+               : prefiltered_microfacets(surface, lobe, f0, parameter, view);
 }
 
 vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                          float parameter) {
-    return reflect_microfacets(surface, lobe, f0, parameter, false);
+    return reflect_microfacets(surface, lobe, f0, parameter, VIEW_OF_MAP);
 }
 
 #endif

@@ -139,7 +139,7 @@ vec3 reflect_facets(surface_point surface, facet_sum sum, uint kind, vec3 f0, fl
                                   : microfacets_by_mip(surface, lobe, f0, parameter));
     }
     return sum.reflected +
-           sum.passing * reflect_facing(surface, normals, kind, f0, parameter, true);
+           sum.passing * reflect_facing(surface, normals, kind, f0, parameter, true, 0.0);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -25,6 +25,7 @@ const bool BIN_COLOUR = false;
 const bool BIN_WIDTHS = false;
 
 #include "filters/displaced/mirrored_light.glsl"
+#include "filters/displaced/light_sent_on.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
@@ -98,6 +99,7 @@ struct relief_footprint {
     light_sum lights[4];
     float shone_on[4]; // of the facets' area that faces the light
     vec3 mirrored_on;  // factor of the light between facets, for what they mirror to each other
+    sent_on_lobe sent_on; // where that comes from if they are smooth
     near_facet near;
 };
 relief_footprint drawn;
@@ -416,10 +418,12 @@ vec3 indirect_share(vec3 albedo) {
     return albedo * albedo * (1.0 - closure.persistence) / (1.0 - albedo * closure.persistence);
 }
 
-// What reaches the viewer: of light at once, and of light between facets.
+// What reaches the viewer: of light at once, of light between facets, and of the latter where they
+// mirror it to each other.
 struct reflected_light {
     vec3 direct;
     vec3 indirect;
+    vec3 sent_on;
 };
 
 // Of light whose channels have these products with the polynomials.
@@ -431,7 +435,15 @@ reflected_light reflect_channels(polynomials red, polynomials green, polynomials
                                 product(form.blue.direct, blue)),
                            vec3(product(form.red.indirect, red),
                                 product(form.green.indirect, green),
-                                product(form.blue.indirect, blue)));
+                                product(form.blue.indirect, blue)), vec3(0.0));
+}
+
+// `over_lobe`: the mean of light over the lobe that smooth facets send on.
+vec3 light_sent_on(vec3 indirect, vec3 over_lobe) {
+    if (!FACETS)
+        return indirect;
+    float of_white = product(integrals_of_polynomials(), drawn.form.red.indirect);
+    return mix(indirect, max(of_white, 0.0) * over_lobe, drawn.sent_on.share);
 }
 
 reflected_light reflect_light(vec3 incoming) {
@@ -440,6 +452,8 @@ reflected_light reflect_light(vec3 incoming) {
     // Where facets are few and steep, the functions overshoot: without a bound by tens of times.
     reflected.direct = min(reflected.direct, vec3(INVERSE_PI));
     reflected.indirect = min(reflected.indirect, vec3(INVERSE_PI));
+    reflected.sent_on =
+        light_sent_on(reflected.indirect, vec3(density_of_sent_on(drawn.sent_on, incoming)));
     return reflected;
 }
 
@@ -477,7 +491,7 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
     } else {
         vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0);
         sum = albedo * reflected.direct +
-              (indirect_share(albedo) + drawn.mirrored_on) * reflected.indirect;
+              indirect_share(albedo) * reflected.indirect + drawn.mirrored_on * reflected.sent_on;
     }
     return max(sum, 0.0);
 }
@@ -552,12 +566,40 @@ float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
     return sum;
 }
 
+// The height of directions from which on the relief hides no light that facets mirror to the
+// viewer, on the side that their mean mirrors: found where the lobe is, but low enough that
+// something is hidden. `deviation`: of the lobe's height.
+float height_of_open_sky(facet_group groups[FACET_BINS], vec3 mirrored, float deviation) {
+    const float LEAST_HEIGHT = 0.05, MOST_HEIGHT = 0.4;
+    positive_part above = positive_part_of(mirrored.z / deviation);
+    float height = clamp(mirrored.z + deviation * above.shift, LEAST_HEIGHT, MOST_HEIGHT);
+    float level = inversesqrt(max(dot(mirrored.xy, mirrored.xy), 1e-8));
+    vec3 direction = vec3(sqrt(1.0 - height * height) * level * mirrored.xy, height);
+    float open = seen_part(facing_area(groups, direction), direction);
+    return height * drawn.seen / max(seen_by_both(drawn.seen, open), 0.02 * drawn.seen);
+}
+
+// The deviation of the height of directions that normals mirror.
+float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
+    vec3 normal = normalize(normals.mean);
+    vec3 across = direction_step(normals.place, vec2(1.0, 0.0)),
+         up = direction_step(normals.place, vec2(0.0, 1.0));
+    float cosine = dot(normal, viewer);
+    vec2 gradient = 2.0 * (normal.z * vec2(dot(viewer, across), dot(viewer, up)) +
+                           cosine * vec2(across.z, up.z));
+    return sqrt(max(covariance_along(normals.covariance, gradient, gradient), 1e-6));
+}
+
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
-// smooth facets in the direction that their mean mirrors, rough ones as diffuse ones are.
+// smooth facets where they mirror light from, and rough ones half as diffuse ones are. The other
+// half of what these reflect comes from about where the viewer is, who sees them.
 struct mirroring_bins {
     facet_group groups[FACET_BINS];
     float areas[FACET_BINS];
-    float shares[FACET_BINS]; // of the bin's facets, those that face the viewer
+    float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
+    float horizons[FACET_BINS]; // heights from which on the relief hides no light
+    float shown;                // the sum of areas
+    float facets;               // the area of all facets, over that of the carrier
 };
 
 mirroring_bins find_bins(surface_point surface, float width) {
@@ -567,33 +609,39 @@ mirroring_bins find_bins(surface_point surface, float width) {
         bins.groups[k] = facets_of_bin(surface, area, k);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
     float roughness = roughness_from_parameter(DISTRIBUTION, width);
+    float alpha = roughness * roughness;
+    bins.shown = bins.facets = 0.0;
     for (uint k = 0u; k < FACET_BINS; ++k) {
         float size = bins.groups[k].size;
+        bins.facets += size;
         normal_spread normals = normals_of(bins.groups[k]);
-        vec3 normal = facing_normals(normals, drawn.viewer, bins.shares[k]).mean;
+        normal_spread seen = seen_normals(normals, drawn.viewer, bins.shares[k]);
         bins.areas[k] = 0.0;
         if (size * bins.shares[k] <= 1e-4)
             continue;
-        vec3 incoming = reflect(-drawn.viewer, normalize(normal));
-        float lit = seen_part(facing_area(bins.groups, incoming), incoming);
-        float shown = mix(seen_by_both(drawn.seen, lit), drawn.seen * closure.direct,
-                          roughness * roughness);
-        bins.areas[k] = size * shown * mean_facing_cosine(normals, drawn.viewer);
+        vec3 mirrored = reflect(-drawn.viewer, normalize(seen.mean));
+        float deviation = deviation_of_mirrored(seen, drawn.viewer);
+        float top = height_of_open_sky(bins.groups, mirrored, deviation);
+        float area = size * drawn.seen * mean_facing_cosine(normals, drawn.viewer);
+        float lit = min(faded_below(mirrored.z / deviation, top / deviation).share, 1.0);
+        bins.areas[k] = area * mix(lit, 0.5 + 0.5 * closure.direct, alpha);
+        bins.horizons[k] = max(top * (1.0 - alpha), 1e-3);
+        bins.shown += bins.areas[k];
     }
     return bins;
 }
 
-// Light that facets mirror onto other facets goes on as if it were diffuse. It is as much as the
+// Light that rough facets mirror onto others goes on as if it were diffuse, and that of smooth ones
+// as in light_sent_on.glsl. It is as much as the
 // bins do not show of what is above the relief, so that none is lost: relative to diffuse light, of
 // which a white relief sends on what it does not reflect at once.
 void find_mirrored_on(base_material base, mirroring_bins bins) {
-    float shown = 0.0;
-    for (uint k = 0u; k < FACET_BINS; ++k)
-        shown += bins.areas[k];
-    float kept = 1.0 - clamp(shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
+    float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
     float diffuse = product(integrals_of_polynomials(), drawn.form.red.indirect);
     drawn.mirrored_on = indirect_share(mirrored_part(base)) *
                         min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
+    drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0,
+                                 roughness_from_parameter(DISTRIBUTION, base.width));
 }
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
@@ -688,7 +736,7 @@ vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
         if (bins.areas[k] > 0.0)
             sum += bins.areas[k] / max(bins.shares[k], 1e-3) *
                    reflect_bin(surface, bin_of(bins.groups[k], fetched.base.width),
-                               fetched.base.specular);
+                               fetched.base.specular, facet_view(true, true, bins.horizons[k]));
     return sum / (drawn.viewer.z * drawn.visible);
 }
 
@@ -711,6 +759,11 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
     reflected_light reflected = reflect_channels(light[0], light[1], light[2]);
     vec3 lobes = FACETS ? reflect_facets_of_relief(fetched, surface)
                         : reflect_base_specular(surface, base);
+    if (FACETS)
+        reflected.sent_on = light_sent_on(
+            reflected.indirect, environment.intensity * round_radiance(surface, DISTRIBUTION_VMF,
+                                                               drawn.sent_on.axis,
+                                                               drawn.sent_on.concentration));
     if (NEAR && drawn.near.share > 0.0)
         lobes = mix(lobes, mirrored_by_near_facet(surface), drawn.near.share);
     vec3 diffuse = diffuse_radiance(base, let_through(surface, white), surface, reflected);

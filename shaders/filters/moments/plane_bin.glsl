@@ -257,7 +257,7 @@ direction_lobe lobe_of_bin(plane_bin bin, vec3 covariance) {
 // GGX keeps its long tails, however far the normals of a bin spread. Without them the error of
 // metal is a fifth larger (relative L1 of scratched metal in a courtyard: 0.070 instead of 0.058;
 // blending both in proportion is no better).
-vec3 reflect_bin(surface_point surface, plane_bin bin, vec3 f0) {
+vec3 reflect_bin(surface_point surface, plane_bin bin, vec3 f0, facet_view view) {
     bool tails = MODEL == MODEL_MICROFACET && distribution_kind() == DISTRIBUTION_GGX;
     uint kind = tails ? DISTRIBUTION_GGX : DISTRIBUTION_VMF;
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
@@ -269,7 +269,7 @@ vec3 reflect_bin(surface_point surface, plane_bin bin, vec3 f0) {
     vec3 covariance = bin.covariance - excess * plane_distortion(bin.mean);
     half_vector_distribution lobe =
         half_vector_distribution(lobe_of_bin(bin, covariance), kind);
-    return reflect_microfacets(surface, lobe, f0, parameter, true);
+    return reflect_microfacets(surface, lobe, f0, parameter, view);
 }
 #endif
 

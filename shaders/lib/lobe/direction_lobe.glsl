@@ -108,6 +108,27 @@ direction_lobe lobe_above(direction_lobe lobe, vec3 plane_normal) {
     return direction_lobe(normalize(lobe.axis + mean * upwards), sqrt(variance) * upwards, level);
 }
 
+// What is left of a normal number of variance 1 where the part below `top` fades in proportion to
+// nothing at 0. With that weight f, the share is E[f], the shift E[f'] / E[f], and the variance
+// 1 + E[f''] / E[f] less the square of the shift.
+struct faded_part {
+    float share;
+    float shift;    // of the mean
+    float variance; // of what is left
+};
+
+faded_part faded_below(float mean, float top) {
+    float width = max(top, 1e-3), scale = 1.0 / width;
+    float x = clamp(mean, -3.0, 10.0), y = x - width;
+    float at_0 = normal_below(x), at_top = normal_below(y);
+    float bend = scale * (normal_density(x) - normal_density(y));
+    faded_part part;
+    part.share = max(scale * (x * at_0 - y * at_top) + bend, 1e-4);
+    part.shift = max(scale * (at_0 - at_top), 0.0) / part.share;
+    part.variance = clamp(1.0 + bend / part.share - part.shift * part.shift, 0.05, 1.0);
+    return part;
+}
+
 // The mean of max(x, 0) for a normal number.
 float mean_above_zero(float mean, float deviation) {
     float x = mean / max(deviation, 1e-10);

@@ -54,18 +54,38 @@ positive_part positive_part_of(float mean) {
                          clamp(shift * (shift + x), 0.0, 0.95));
 }
 
-// The normals that face a direction, as Gaussian again (see lobe_above).
-normal_spread facing_normals(normal_spread normals, vec3 direction, out float share) {
+// The same weighted with itself, as areas are by how large they appear.
+positive_part weighted_by_itself(positive_part part, float mean) {
+    float shift = 1.0 / max(clamp(mean, -3.0, 10.0) + part.shift, 0.1);
+    return positive_part(part.share, shift,
+                         clamp(shift * (shift - part.shift), 0.0, 0.95));
+}
+
+// Normals weighted by their cosine to a direction, as Gaussian again (see lobe_above).
+normal_spread moved_normals(normal_spread normals, vec3 direction, bool by_area, out float share) {
     vec2 gradient = cosine_gradient(normals.place, direction);
     float scale = inversesqrt(
         max(covariance_along(normals.covariance, gradient, gradient), 1e-10));
-    positive_part part = positive_part_of(scale * dot(normals.mean, direction));
+    float mean = scale * dot(normals.mean, direction);
+    positive_part part = positive_part_of(mean);
+    if (by_area)
+        part = weighted_by_itself(part, mean);
     vec2 slope = scale * vec2(dot(normals.covariance.xz, gradient),
                               dot(normals.covariance.zy, gradient));
     share = part.share;
     normals.mean += part.shift * direction_step(normals.place, slope);
     normals.covariance -= part.narrower * vec3(slope * slope, slope.x * slope.y);
     return normals;
+}
+
+// The normals that face a direction, all alike.
+normal_spread facing_normals(normal_spread normals, vec3 direction, out float share) {
+    return moved_normals(normals, direction, false, share);
+}
+
+// The normals of facets as large as they appear from a direction. `share`: of those that face it.
+normal_spread seen_normals(normal_spread normals, vec3 direction, out float share) {
+    return moved_normals(normals, direction, true, share);
 }
 
 // The mean of max(<n, direction>, 0).

@@ -63,12 +63,15 @@ vec4 reflection_lobe_of_beckmann(float u, float roughness) {
         u);
 }
 
-// What F_0 reflects. `ggx`: of GGX, else of Beckmann's distribution or one without long tails.
-reflection_lobe lobe_of_reflection(bool ggx, float outgoing_cosine, float roughness) {
+// What F_0 reflects. `tails` [0, 1]: 1 of GGX, 0 of Beckmann's distribution or one without long
+// tails.
+reflection_lobe lobe_of_reflection(float tails, float outgoing_cosine, float roughness) {
     float cosine = clamp(outgoing_cosine, 0.0, 1.0);
     float alpha = max(roughness * roughness, ALPHA_MINIMUM);
-    vec4 p = ggx ? reflection_lobe_of_ggx(1.0 - cosine, roughness)
-                 : reflection_lobe_of_beckmann(1.0 - cosine, roughness);
+    vec4 p = tails >= 1.0   ? reflection_lobe_of_ggx(1.0 - cosine, roughness)
+             : tails <= 0.0 ? reflection_lobe_of_beckmann(1.0 - cosine, roughness)
+                            : mix(reflection_lobe_of_beckmann(1.0 - cosine, roughness),
+                                  reflection_lobe_of_ggx(1.0 - cosine, roughness), tails);
     float q = clamp(p.z, 0.0, 1.0);
     reflection_lobe result;
     result.angle = acos(cosine) * (1.0 + alpha * p.x);

@@ -12,12 +12,13 @@ reflection_lobe lobe_of(vec4 numbers) {
     return reflection_lobe(numbers.x, numbers.y, numbers.z, numbers.w);
 }
 
-// GGX (1) or not: a.x; the cosine to the viewer: a.y; roughness: a.z. Or two lobes: a, b; the share
-// of the second: c.x. Or a lobe: a; the cosine to the viewer, roughness, how far completed: b.xyz.
+// The tails of GGX [0, 1]: a.x; the cosine to the viewer: a.y; roughness: a.z. Or two lobes: a, b;
+// the share of the second: c.x. Or a lobe: a; the cosine to the viewer, roughness, how far
+// completed: b.xyz.
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     switch (FUNCTION) {
     case 0:
-        return numbers_of(lobe_of_reflection(a.x > 0.5, a.y, a.z));
+        return numbers_of(lobe_of_reflection(a.x, a.y, a.z));
     case 1:
         return numbers_of(lobe_of_grazing_reflection(a.y, a.z));
     case 3:

@@ -366,7 +366,7 @@ static double metal_under_sky(fixture *f, const char *filter, double roughness,
 
 /// What white metal mirrors and other facets get is as much as it does not show of the sky, and
 /// rough facets, of which light is not followed from one microfacet to the next, reflect less of
-/// it.
+/// it. Measured: within 0.02, and 0.049 of the roughest at 80 degrees.
 static void metal_reflects_as_much_as_the_reference(void **state) {
     static const double roughnesses[] = {0.3, 0.6, 1}, angles[] = {10, 60, 80};
     for (int i = 0; i < 9; i++) {
@@ -376,8 +376,32 @@ static void metal_reflects_as_much_as_the_reference(void **state) {
                      found = metal_under_sky(*state, "displaced", roughness, outgoing, 64),
                      expected =
                          metal_under_sky(*state, "displaced-reference", roughness, outgoing, 4096);
-        check(found, expected, 0.13 * expected, "metal under the sky", angles[i % 3]);
+        check(found, expected, 0.06 * expected, "metal under the sky", angles[i % 3]);
     }
+}
+
+static double gentle(uint32_t column, uint32_t row) {
+    return 0.5 * waves(column, row);
+}
+
+/// Light that smooth facets mirror to each other comes from ahead of the viewer. Seen from a low
+/// angle, under suns to the side, which few facets mirror, it is much of the picture. Measured:
+/// 0.33 of the mean; 0.64 if it came as light does that diffuse facets send on.
+static void smooth_metal_sends_light_on_ahead(void **state) {
+    double error = 0, sum = 0;
+    for (int i = 0; i < 8; i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(70, 0.3 + 0.5 * M_PI * (i / 2), outgoing);
+        slope_plane_direction(40, 0.3 + 0.5 * M_PI * (i / 2) + (i % 2 == 0 ? 0.8 : -0.8), incoming);
+        const double expected = metal_under_sun(*state, "displaced-reference", 0.35, gentle,
+                                                outgoing, incoming, 8192),
+                     found =
+                         metal_under_sun(*state, "displaced", 0.35, gentle, outgoing, incoming, 64);
+        error += fabs(found - expected);
+        sum += expected;
+    }
+    if (!(error <= 0.4 * sum))
+        fail_msg("%.4f", error / sum);
 }
 
 /// Waves are where the reference has them, from single facets to many. Bounds are a fifth above
@@ -631,6 +655,7 @@ int main(void) {
         cmocka_unit_test(a_level_map_mirrors_as_its_material),
         cmocka_unit_test(highlights_are_those_of_the_facets),
         cmocka_unit_test(metal_reflects_as_much_as_the_reference),
+        cmocka_unit_test(smooth_metal_sends_light_on_ahead),
         cmocka_unit_test(pictures_are_close_to_the_reference),
         cmocka_unit_test(odd_maps_are_finite),
         cmocka_unit_test(every_run_makes_the_same),
