@@ -1,16 +1,17 @@
 #include "passes/upload/material_maps.h"
 
+#include <lobe/colour.h>
 #include <math.h>
 #include <string.h>
 
 bool passes_has_height_normals(const lobe_scene *scene, const lobe_material *material) {
     const int32_t index = material->height_map.image;
-    float texel[4];
+    double height;
     if (material->normal_map.image >= 0 || index < 0 || material->height_scale == 0)
         return false;
     const lobe_scene_image *image = &scene->images[index];
     return !image->on_device && image->image.width > 0 && image->image.height > 0 &&
-           passes_image_texel(&image->image, 0, 0, texel);
+           passes_height_texel(&image->image, 0, 0, &height);
 }
 
 const lobe_texture_use *passes_material_map_use(const lobe_scene *scene,
@@ -203,6 +204,31 @@ bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float v
     for (uint32_t i = 0; i < 4; i++)
         value[i] = i < lobe_format_channels(image->format) ? channel(image, texel, i)
                                                            : (i == 3 ? 1.0f : 0.0f);
+    return true;
+}
+
+/// Formats that only heights and colours have.
+static const unsigned char *height_bytes(const lobe_image *image, uint32_t x, uint32_t y) {
+    switch (image->texels ? image->format : LOBE_FORMAT_NONE) {
+    case LOBE_FORMAT_RGBA8_SRGB:
+    case LOBE_FORMAT_BGRA8_SRGB:
+    case LOBE_FORMAT_BGRA8_UNORM:
+        return (const unsigned char *)image->texels + 4 * ((size_t)y * image->width + x);
+    default:
+        return NULL;
+    }
+}
+
+bool passes_height_texel(const lobe_image *image, uint32_t x, uint32_t y, double *height) {
+    const unsigned char *bytes = height_bytes(image, x, y);
+    float value[4];
+    if (!bytes && !passes_image_texel(image, x, y, value))
+        return false;
+    if (bytes)
+        value[0] = (float)bytes[image->format == LOBE_FORMAT_RGBA8_SRGB ? 0 : 2] / 255;
+    if (bytes && image->format != LOBE_FORMAT_BGRA8_UNORM)
+        value[0] = lobe_srgb_decode(value[0]);
+    *height = value[0] > 0 ? fmin((double)value[0], 1) : 0;
     return true;
 }
 

@@ -61,6 +61,11 @@ bool passes_lies_under_lobes(const device_material *material, uint32_t map);
 /// for images without texels.
 bool passes_image_texel(const lobe_image *image, uint32_t x, uint32_t y, float value[4]);
 
+/// Red, read on the host as the device would: sRGB is decoded, and values outside [0, 1] count as
+/// its ends. False for images without texels, half floats and depth, of which no host reads
+/// heights.
+bool passes_height_texel(const lobe_image *image, uint32_t x, uint32_t y, double *height);
+
 /// Whether texels are normals as they are, not (n + 1) / 2, and whether z follows from x and y.
 bool passes_normals_are_signed(lobe_normal_encoding encoding);
 bool passes_normals_lack_z(lobe_normal_encoding encoding);

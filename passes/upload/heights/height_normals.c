@@ -5,10 +5,8 @@
 #include "passes/upload/material_maps.h"
 
 static double height_at(const lobe_image *image, uint32_t x, uint32_t y) {
-    float texel[4];
-    if (!passes_image_texel(image, x, y, texel) || !(texel[0] > 0))
-        return 0;
-    return fmin((double)texel[0], 1);
+    double height;
+    return passes_height_texel(image, x, y, &height) ? height : 0;
 }
 
 /// The neighbour before (`forwards`: after) texel `i` of `size`.

@@ -143,8 +143,9 @@ typedef struct lobe_material {
     float normal_concentration;
     /// Red: height outwards [0, 1]; values beyond that count as its ends. Displaces the surface
     /// with the knob `displacement`, and is what the filter `displaced` shades; always
-    /// interpolated. Without a normal map, the surface's normals are those of the heights, unless
-    /// these are given on the device or half floats.
+    /// interpolated. sRGB is decoded first. Without a normal map, the surface's normals are those
+    /// of the heights, except that none are made of half floats, nor of heights given on the
+    /// device.
     lobe_texture_use height_map;
     /// What the range [0, 1] of the height map spans, as a fraction of the map's own width in the
     /// world (the length over which u grows by 1), so that the relief scales with the map. With

@@ -177,6 +177,61 @@ static void edges_of_maps_are_wrapped(void **state) {
     lobe_image_free(&heights.image);
 }
 
+/// A byte of each channel, of which only red is the height.
+static lobe_image byte_heights(lobe_format format) {
+    const bool is_bgra = format == LOBE_FORMAT_BGRA8_UNORM || format == LOBE_FORMAT_BGRA8_SRGB;
+    lobe_image image = map_image(format, WIDTH, HEIGHT);
+    unsigned char *texel = image.texels;
+    for (int i = 0; i < WIDTH * HEIGHT; i++, texel += 4) {
+        const double height = wave((i % WIDTH + 0.5) / WIDTH, (i / WIDTH + 0.5) / HEIGHT);
+        for (int channel = 0; channel < 4; channel++)
+            texel[channel] = (unsigned char)(37 * i + 11 * channel);
+        texel[is_bgra ? 2 : 0] = (unsigned char)lround(255 * height);
+    }
+    return image;
+}
+
+/// IEC 61966-2-1, written again.
+static double linear_of(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// What the device reads of such a map.
+static lobe_image heights_of_bytes(bool is_srgb) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTH, HEIGHT);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const double height = wave((i % WIDTH + 0.5) / WIDTH, (i / WIDTH + 0.5) / HEIGHT),
+                     read = (double)lround(255 * height) / 255;
+        ((float *)image.texels)[4 * i] = (float)(is_srgb ? linear_of(read) : read);
+    }
+    return image;
+}
+
+static lobe_frame draw_heights(fixture *f, lobe_image heights, const picture_request *request) {
+    lobe_scene *scene = height_scene(0.08f);
+    lobe_image_free(&scene->images[0].image);
+    scene->images[0].image = heights;
+    lobe_frame frame = draw_scene(f, scene, request);
+    lobe_scene_destroy(&scene);
+    return frame;
+}
+
+static void bytes_in_any_order_are_heights(void **state) {
+    static const lobe_format formats[] = {LOBE_FORMAT_RGBA8_UNORM, LOBE_FORMAT_RGBA8_SRGB,
+                                          LOBE_FORMAT_BGRA8_UNORM, LOBE_FORMAT_BGRA8_SRGB};
+    static const picture_request request = {.filter = "leadr", .width = 24, .height = 24};
+    fixture *f = *state;
+    for (int i = 0; i < 4; i++) {
+        lobe_frame expected = draw_heights(f, heights_of_bytes(i % 2), &request);
+        lobe_frame frame = draw_heights(f, byte_heights(formats[i]), &request);
+        const double error = relative_l2(&frame.radiance, &expected.radiance);
+        if (!(error < 1e-4))
+            fail_msg("%s: off by %g", lobe_format_name(formats[i]), error);
+        lobe_frame_free(&expected);
+        lobe_frame_free(&frame);
+    }
+}
+
 // ---------------------------------------------------------------------------------------------
 // The same surface as a mesh
 
@@ -261,6 +316,7 @@ int main(void) {
         cmocka_unit_test(edges_of_maps_are_wrapped),
         cmocka_unit_test(filters_see_the_normals_of_heights),
         cmocka_unit_test(changes_reach_the_normals),
+        cmocka_unit_test(bytes_in_any_order_are_heights),
         cmocka_unit_test(heights_that_are_no_numbers_are_errors),
         cmocka_unit_test(displaced_geometry_is_lit_as_a_mesh),
     };
