@@ -377,6 +377,7 @@ struct facet_view {
 };
 
 const facet_view VIEW_OF_MAP = facet_view(false, false, 0.0);
+const facet_view VIEW_OF_BIN = facet_view(true, false, 0.0);
 
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                              float parameter, facet_view view) {

@@ -632,9 +632,9 @@ mirroring_bins find_bins(surface_point surface, float width) {
 }
 
 // Light that rough facets mirror onto others goes on as if it were diffuse, and that of smooth ones
-// as in light_sent_on.glsl. It is as much as the
-// bins do not show of what is above the relief, so that none is lost: relative to diffuse light, of
-// which a white relief sends on what it does not reflect at once.
+// as in light_sent_on.glsl. It is as much as the bins do not show of what is above the relief, so
+// that none is lost: relative to diffuse light, of which a white relief sends on what it does not
+// reflect at once.
 void find_mirrored_on(base_material base, mirroring_bins bins) {
     float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
     float diffuse = product(integrals_of_polynomials(), drawn.form.red.indirect);

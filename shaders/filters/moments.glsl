@@ -389,7 +389,7 @@ vec3 reflect_texel(inout appearance fetched, inout bin_means means, surface_poin
         fetched.lobe_count += 1.0;
         vec3 f0 = BIN_COLOUR ? bin.colour : fetched.filtered.specular;
         vec3 reflected = CLOSED ? reflect_closed_bin(fetched, surface, bin, f0)
-                                : reflect_bin(surface, bin, f0, facet_view(true, false, 0.0));
+                                : reflect_bin(surface, bin, f0, VIEW_OF_BIN);
         reflected *= part_of_bin(bin);
         if (MODEL == MODEL_HALF_VECTOR_LOBES)
             reflected *= BIN_COLOUR ? bin.colour : fetched.filtered.specular * lobes_colour();

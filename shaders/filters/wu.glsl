@@ -402,7 +402,7 @@ vec3 mirrored_by_cell(uint level, uint cell, surface_point surface, base_materia
         float faces = mean_facing_cosine(normals, drawn.outgoing) / max(share, 1e-3);
         sum += (area * faces * both *
                 scaling_of_mirrors(level, place_in_table(incoming), outgoing)) *
-               reflect_bin(surface, bin, base.specular, facet_view(true, false, 0.0));
+               reflect_bin(surface, bin, base.specular, VIEW_OF_BIN);
     }
     return mirror_scaling_of_cell(level, cell) * sum;
 }

@@ -28,8 +28,7 @@ sent_on_lobe find_sent_on(vec3 viewer, float excess, float roughness) {
     float resultant = clamp(length(mean), 0.6, 0.98);
     sent_on_lobe lobe;
     lobe.axis = normalize(mean);
-    lobe.concentration =
-        concentration_from_resultant(resultant, 1.0 - resultant);
+    lobe.concentration = concentration_from_resultant(resultant, 1.0 - resultant);
     lobe.share = 1.0 - alpha;
     lobe.scale = 1.0 / normal_below(lobe.axis.z * sqrt(lobe.concentration));
     return lobe;
