@@ -131,8 +131,6 @@ def test_what_is_measured_makes_sense():
     check("shading" in retained and "lobe_clustering" not in retained, str(retained))
     check(results["direct"]["bytes_per_texel"] == 0, "direct has no maps")
     check(results["lobes"]["bytes_per_texel"] > 1, "lobes has maps")
-    check(results["lobes"]["rebuilt_ms"]["median"] > results["lobes"]["retained_ms"]["median"],
-          "building maps takes time")
     check(0 < results["reference"]["error"]["relative_l2"] <
           results["direct"]["error"]["relative_l2"], "the reference is nearer to the truth")
 
