@@ -8,6 +8,9 @@
 /// As many transforms as one buffer of a frame may hold (lobe_graph_upload).
 enum { MOST_TRANSFORMS = (4 << 20) / sizeof(struct instance_constants) };
 
+/// Of an instance that is not in the list.
+#define NO_BATCH UINT32_MAX
+
 bool passes_draw_list_create(draw_list *list, size_t meshes, const lobe_allocator *allocator) {
     *list = (draw_list){.of_mesh = lobe_allocate(allocator, meshes, sizeof *list->of_mesh)};
     return list->of_mesh != NULL;
@@ -43,6 +46,8 @@ void passes_draw_list_destroy(draw_list *list) {
 void passes_draw_list_begin(draw_list *list, const device_scene *scene) {
     list->batch_count = 0;
     memset(list->of_mesh, 0, scene->scene->mesh_count * sizeof *list->of_mesh);
+    for (size_t i = 0; i < scene->scene->instance_count; i++)
+        list->batch_of[i] = NO_BATCH;
 }
 
 /// The batch of the mesh that the instance can join, 1 + its index; 0: none. Materials come one
@@ -109,7 +114,7 @@ static void fill_transforms(draw_list *list, const lobe_scene *scene,
     for (uint32_t i = 0; i < list->batch_count; i++)
         list->batches[i].count = 0;
     for (size_t i = 0; i < scene->instance_count; i++) {
-        if (scene->instances[i].hidden)
+        if (list->batch_of[i] == NO_BATCH)
             continue;
         instance_batch *batch = &list->batches[list->batch_of[i]];
         fill(transforms ? transforms[i] : scene->instances[i].transform,

@@ -43,7 +43,7 @@ typedef struct draw_list {
     uint32_t batch_count;
     bool draws_all; ///< nothing is culled: for tests
     // Memory that is kept from frame to frame.
-    uint32_t *batch_of;                    ///< of each instance that is drawn
+    uint32_t *batch_of;                    ///< of each instance of the scene
     uint32_t *of_mesh;                     ///< as `next_of_mesh`: of each mesh
     struct instance_constants *transforms; ///< of these instances, batch by batch
     size_t room;                           ///< for so many instances

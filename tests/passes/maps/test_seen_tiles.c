@@ -458,6 +458,25 @@ static void shared_images_follow_their_texels(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Beside surfaces of which nothing is marked, tiles are those that the others show.
+static void surfaces_without_maps_mark_nothing(void **state) {
+    static const char *const settings[] = {"storage=float32", NULL};
+    fixture *f = *state;
+    lobe_scene *scene = mapped_scene(256, 256, 1, LOBE_SCENE_WRAP_REPEAT);
+    lobe_material second = scene->materials[0];
+    const lobe_material plain = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0);
+    const float right[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.3f, 0.1f, 0, 1};
+    const float small[16] = {0.1f, 0, 0, 0, 0, 0.1f, 0, 0, 0, 0, 0.1f, 0, -0.3f, 0.1f, 0, 1};
+    second.name = NULL;
+    second.roughness = 0.9f;
+    scene_add_square(scene, &second, 1, right);
+    for (int i = 0; i < 3; i++)
+        scene_add_square(scene, &plain, 1, small);
+    scene_end(scene);
+    check_views(f, scene, "lean", settings, "beside plain surfaces");
+    lobe_scene_destroy(&scene);
+}
+
 /// Four times as many points have half the error.
 static void samples_of_texels_converge(void **state) {
     static const char *const settings[4][3] = {{"storage=float32"},
@@ -491,6 +510,7 @@ int main(void) {
         cmocka_unit_test(tiles_follow_what_they_are_made_from),
         cmocka_unit_test(tiles_follow_bins_that_settle),
         cmocka_unit_test(shared_images_follow_their_texels),
+        cmocka_unit_test(surfaces_without_maps_mark_nothing),
         cmocka_unit_test(samples_of_texels_converge),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
