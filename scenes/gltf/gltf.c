@@ -6,6 +6,7 @@
 #include "scenes/format/host_file.h"
 #include "scenes/gltf/container.h"
 #include "scenes/gltf/schema.h"
+#include "scenes/scene/even_maps.h"
 #include "scenes/scene/scene.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -175,7 +176,9 @@ static lobe_result convert(gltf_import *import) {
     if (result != LOBE_OK)
         return result;
     scenes_gltf_report_notes(import);
-    result = scenes_complete(import->scene, import->own_light_only, import->host);
+    result = scenes_fold_even_maps(import->scene, import->host);
+    if (result == LOBE_OK)
+        result = scenes_complete(import->scene, import->own_light_only, import->host);
     if (result == LOBE_OK && import->scene->has_camera)
         scenes_gltf_aim_camera(import->scene);
     if (result == LOBE_OK)

@@ -9,6 +9,7 @@
 #include "scenes/material/folder_files.h"
 #include "scenes/material/height_scale.h"
 #include "scenes/material/image_channel.h"
+#include "scenes/scene/even_maps.h"
 #include "scenes/scene/scene.h"
 
 // Used for maps that the folder lacks.
@@ -260,6 +261,8 @@ lobe_result scenes_material_open(const lobe_scene_open_parameters *parameters, l
         status = add_material(&folder);
     if (!status)
         status = scenes_carrier_add(folder.scene, carrier, host);
+    if (!status)
+        status = scenes_fold_even_maps(folder.scene, host);
     if (!status)
         status = scenes_complete(folder.scene, parameters->own_light_only, host);
     if (!status)

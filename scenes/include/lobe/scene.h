@@ -343,10 +343,12 @@ typedef struct lobe_scene_open_parameters {
 /// animations are imported into its rig, see lobe_scene_set_pose. One warning
 /// names unsupported parts; triangles without area are dropped and normals of length zero
 /// recomputed, each with a warning that counts them. Triangles without normals are flat, as glTF
-/// requires. A missing camera or light is added, with a notice (see `own_light_only`). A file with
-/// nothing to draw opens; lobe_renderer_set_scene rejects it. On failure `*result` is NULL and the
-/// log has one message that names the file and the cause. Errors: LOBE_ERROR_NOT_FOUND, _READ,
-/// _MALFORMED, _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
+/// requires. A missing camera or light is added, with a notice (see `own_light_only`). Maps of a
+/// file or folder that have the same value in all texels become numbers of the material, with a
+/// notice, and their images keep one texel: a host that wants to write such a map gives the
+/// material an image again. A file with nothing to draw opens; lobe_renderer_set_scene rejects it.
+/// On failure `*result` is NULL and the log has one message that names the file and the cause.
+/// Errors: LOBE_ERROR_NOT_FOUND, _READ, _MALFORMED, _UNSUPPORTED, _LIMIT, _OUT_OF_MEMORY.
 LOBE_API lobe_result lobe_scene_open_with(const lobe_scene_open_parameters *parameters,
                                           const lobe_host *host, lobe_scene **result);
 

@@ -40,6 +40,13 @@ int folder_fixture_destroy(void **state) {
     return result;
 }
 
+// A map with one value would become a factor.
+static void vary_last_texel(lobe_image *image) {
+    const size_t last = (size_t)image->width * image->height - 1;
+    for (size_t i = 0; i < 3; i++)
+        ((uint8_t *)image->texels)[4 * last + i] ^= 1;
+}
+
 void write_map(const folder_fixture *fixture, const char *name, uint32_t width, uint32_t height,
                uint8_t red, uint8_t green, uint8_t blue) {
     lobe_image image;
@@ -49,6 +56,7 @@ void write_map(const folder_fixture *fixture, const char *name, uint32_t width, 
                      LOBE_OK);
     for (size_t i = 0; i < (size_t)width * height; i++)
         memcpy((uint8_t *)image.texels + 4 * i, (uint8_t[]){red, green, blue, 255}, 4);
+    vary_last_texel(&image);
     assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
     lobe_image_free(&image);
 }
@@ -60,6 +68,8 @@ void write_rgba_map(const folder_fixture *fixture, const char *name, const uint8
     assert_int_equal(lobe_image_allocate(&image, LOBE_FORMAT_RGBA8_UNORM, 3, 2, NULL), LOBE_OK);
     for (size_t i = 0; i < 6; i++)
         memcpy((uint8_t *)image.texels + 4 * i, rgba, 4);
+    vary_last_texel(&image);
+    ((uint8_t *)image.texels)[4 * 6 - 1] ^= rgba[3] < 255; // all of a full alpha stays full
     assert_int_equal(lobe_png_write(path, &image, NULL), LOBE_OK);
     lobe_image_free(&image);
 }

@@ -19,7 +19,7 @@ int folder_fixture_create(void **state);
 int folder_fixture_destroy(void **state);
 
 void folder_file_path(const folder_fixture *fixture, const char *name, char path[512]);
-/// An image with the same colour in all texels.
+/// An image with the same colour in all texels, except that the last one's differs by one.
 void write_map(const folder_fixture *fixture, const char *name, uint32_t width, uint32_t height,
                uint8_t red, uint8_t green, uint8_t blue);
 /// The same, small, with a value for alpha.

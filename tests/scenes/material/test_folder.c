@@ -15,8 +15,8 @@ static void separate_maps_are_packed(void **state) {
     write_map(fixture, "Wall_NormalGL.png", 8, 8, 128, 140, 250);
     write_map(fixture, "Wall_Roughness.png", 2, 6, 90, 90, 90);
     write_map(fixture, "Wall_Metalness.png", 5, 3, 200, 200, 200);
-    write_map(fixture, "Wall_AmbientOcclusion.png", 1, 1, 60, 60, 60);
-    write_map(fixture, "Wall_Displacement.png", 1, 1, 70, 70, 70);
+    write_map(fixture, "Wall_AmbientOcclusion.png", 2, 1, 60, 60, 60);
+    write_map(fixture, "Wall_Displacement.png", 2, 1, 70, 70, 70);
     write_folder_text(fixture, "Wall_normal.txt", "not an image");
     const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
     assert_int_equal(fixture->scene->image_count, 5);
@@ -211,9 +211,9 @@ static void missing_maps_become_factors(void **state) {
 
 static void first_in_alphabetical_order_is_taken(void **state) {
     folder_fixture *fixture = *state;
-    write_map(fixture, "col_2.png", 1, 1, 2, 2, 2);
-    write_map(fixture, "col_1.png", 1, 1, 1, 1, 1);
-    write_map(fixture, "col_3.png", 1, 1, 3, 3, 3);
+    write_map(fixture, "col_2.png", 2, 1, 2, 2, 2);
+    write_map(fixture, "col_1.png", 2, 1, 1, 1, 1);
+    write_map(fixture, "col_3.png", 2, 1, 3, 3, 3);
     const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
     assert_int_equal(fixture->scene->image_count, 1);
     assert_texel(image_of_use(fixture, &material->base_colour_map), 1, 1, 1);
