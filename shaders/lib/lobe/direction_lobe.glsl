@@ -117,14 +117,22 @@ struct faded_part {
     float variance; // of what is left
 };
 
+// The mean of max(x, 0) for a normal number of variance 1, less max(mean, 0).
+float mean_beyond_zero(float mean) {
+    float x = min(abs(mean), 10.0);
+    return normal_density(x) - x * normal_below(-x);
+}
+
+// The share is a difference of two means of max(x, 0), which far above `top` are all but equal.
 faded_part faded_below(float mean, float top) {
     float width = max(top, 1e-3), scale = 1.0 / width;
-    float x = clamp(mean, -3.0, 10.0), y = x - width;
-    float at_0 = normal_below(x), at_top = normal_below(y);
+    float x = max(mean, -3.0), y = x - width;
     float bend = scale * (normal_density(x) - normal_density(y));
     faded_part part;
-    part.share = max(scale * (x * at_0 - y * at_top) + bend, 1e-4);
-    part.shift = max(scale * (at_0 - at_top), 0.0) / part.share;
+    part.share = max(clamp(scale * x, 0.0, 1.0) +
+                         scale * (mean_beyond_zero(x) - mean_beyond_zero(y)),
+                     1e-4);
+    part.shift = max(scale * (normal_below(x) - normal_below(y)), 0.0) / part.share;
     part.variance = clamp(1.0 + bend / part.share - part.shift * part.shift, 0.05, 1.0);
     return part;
 }

@@ -354,10 +354,10 @@ static void highlights_are_those_of_the_facets(void **state) {
 }
 
 static double metal_under_sky(fixture *f, const char *filter, double roughness,
-                              const double outgoing[3], uint32_t samples) {
+                              relief_height height, const double outgoing[3], uint32_t samples) {
     lobe_material material = metal(roughness);
     material.base_colour[1] = 1;
-    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, waves), outgoing, 40);
+    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, height), outgoing, 40);
     relief_plane_add_sky(scene);
     double found = relief_plane_draw(f, scene, filter, NULL, samples);
     lobe_scene_destroy(&scene);
@@ -373,10 +373,29 @@ static void metal_reflects_as_much_as_the_reference(void **state) {
         double outgoing[3];
         slope_plane_direction(angles[i % 3], 0.7, outgoing);
         const double roughness = roughnesses[i / 3],
-                     found = metal_under_sky(*state, "displaced", roughness, outgoing, 64),
-                     expected =
-                         metal_under_sky(*state, "displaced-reference", roughness, outgoing, 4096);
+                     found = metal_under_sky(*state, "displaced", roughness, waves, outgoing, 64),
+                     expected = metal_under_sky(*state, "displaced-reference", roughness, waves,
+                                                outgoing, 4096);
         check(found, expected, 0.06 * expected, "metal under the sky", angles[i % 3]);
+    }
+}
+
+/// Slopes of 0.001 at most.
+static double nearly_level(uint32_t column, uint32_t row) {
+    return 5e-4 * waves(column, row);
+}
+
+/// So do nearly level ones: nothing of the sky is hidden from them.
+static void a_level_map_mirrors_the_sky_as_its_material(void **state) {
+    static const double roughnesses[] = {0.2, 0.6}, angles[] = {10, 60, 80};
+    for (int i = 0; i < 12; i++) {
+        const relief_height height = i < 6 ? level : nearly_level;
+        const double roughness = roughnesses[i / 3 % 2];
+        double outgoing[3];
+        slope_plane_direction(angles[i % 3], 0.7, outgoing);
+        const double found = metal_under_sky(*state, "displaced", roughness, height, outgoing, 64),
+                     expected = metal_under_sky(*state, "direct", roughness, level, outgoing, 64);
+        check(found, expected, 3e-3 * expected, "level metal under the sky", angles[i % 3]);
     }
 }
 
@@ -655,6 +674,7 @@ int main(void) {
         cmocka_unit_test(a_level_map_mirrors_as_its_material),
         cmocka_unit_test(highlights_are_those_of_the_facets),
         cmocka_unit_test(metal_reflects_as_much_as_the_reference),
+        cmocka_unit_test(a_level_map_mirrors_the_sky_as_its_material),
         cmocka_unit_test(smooth_metal_sends_light_on_ahead),
         cmocka_unit_test(pictures_are_close_to_the_reference),
         cmocka_unit_test(odd_maps_are_finite),
