@@ -20,6 +20,7 @@
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
+layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_DISPERSION;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
@@ -104,16 +105,17 @@ float uniform_complement() {
 }
 
 // The mean of the texels' normals, and of 1 - |r| of their base lobes; `coverage`: the weights'
-// sum in a footprint, below 1 at the edge of an atlas and under a mask.
+// sum in a footprint, below 1 at the edge of an atlas, under a mask, and where they are weighted.
 vec4 fetch_mean(map_area area, out float coverage) {
     coverage = 1.0;
     vec4 one = vec4(0.0);
-    if (SPACE != SPACE_TANGENT || MASKED_LOBES || MEAN_LAYER == 0u) {
+    if (SPACE != SPACE_TANGENT || MASKED_LOBES || WEIGHTED || MEAN_LAYER == 0u) {
         one = filtered_layer(mixture_map, area, MIXTURE_LAYER_ONE);
         coverage = max(one.w, LEAST_WEIGHT);
     }
     if (MEAN_LAYER != 0u)
-        return filtered_layer(mixture_map, area, MEAN_LAYER) / coverage;
+        return filtered_layer(mixture_map, area, MEAN_LAYER) /
+               vec4(vec3(WEIGHTED ? 1.0 : coverage), coverage);
     // There is no such layer if all base lobes are equal and along their normals.
     float complement = uniform_complement();
     return vec4(one.xyz / max(coverage * (1.0 - complement), LEAST_WEIGHT), complement);

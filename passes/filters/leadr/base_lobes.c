@@ -1,8 +1,8 @@
 #include "passes/filters/leadr/base_lobes.h"
 
+#include "passes/maps/colours/mirrored_luminance.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
-#include "passes/maps/moment_map.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/slope_moments.h"
 
@@ -12,10 +12,7 @@ static uint32_t variation_of(const device_material *material) {
     if (material->material->model != LOBE_MATERIAL_MICROFACET || !widths->use ||
         widths->width * widths->height == 1)
         return BASE_LOBES_ALIKE;
-    // Under a mask, colours are those of what it keeps.
-    const bool coloured =
-        material->metallic_varies && !material->masked && passes_bins_may_have_colours(material);
-    return coloured ? BASE_LOBES_COLOURED : BASE_LOBES_VARY;
+    return passes_mirrored_luminance_varies(material) ? BASE_LOBES_COLOURED : BASE_LOBES_VARY;
 }
 
 static void specialise(const filter_context *context, const device_material *material,

@@ -6,6 +6,7 @@
 #include <cglm/cglm.h>
 
 #include "passes/context/camera.h"
+#include "passes/maps/colours/mirrored_luminance.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/seen_tiles.h"
@@ -67,7 +68,9 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
 
     mixture_map mixture = {.format = passes_filtered_map_format(context),
                            .subdivision = request->subdivision,
-                           .space = space};
+                           .space = space,
+                           .weighted = space == LOBE_SPACE_TANGENT &&
+                                       passes_mirrored_luminance_varies(material)};
     uint32_t layers = layers_of(request->subdivision);
     mixture.mean_layer = request->mean ? layers : 0;
     char name[64];
@@ -87,13 +90,14 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
         atlas = passes_surface_atlas_draw(context, instance, grid.width, grid.height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
     passes_base_maps_read(context, material, false, pass);
-    passes_base_colour_read(context, material, false, pass);
+    passes_base_colour_read(context, material, mixture.weighted, pass);
     passes_reduced_map_write(&mixture.map, pass, "mixture_map", 0);
     specialisation_list list = {.graph = context->graph};
     passes_base_maps_specialise(material, &list);
     passes_specialise(&list, SPECIALISE_SUBDIVISION, request->subdivision);
     passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
+    passes_specialise(&list, SPECIALISE_WEIGHTED, mixture.weighted);
     const struct lobe_grid_constants tangent_constants =
         passes_lobe_grid_constants(context, material);
     struct atlas_constants atlas_constants = {.width = grid.width,

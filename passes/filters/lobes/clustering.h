@@ -11,6 +11,7 @@ typedef struct mixture_map {
     uint32_t subdivision; ///< [0, 2]: 1, 4 or 8 clusters at the finest
     uint32_t mean_layer;  ///< layer of the mean normal and length; 0: none
     lobe_map_space space; ///< tangent, object or camera
+    bool weighted;        ///< texels count by what they mirror
 } mixture_map;
 
 /// What is wanted of a mixture map.

@@ -3,18 +3,16 @@
 #pragma variants SEEN_TILES
 
 // The finest level of a map of base lobes, where roughness or metal varies. Each lobe counts as
-// much as it mirrors: rust is rough, and mirrors a tenth of what the metal does.
-//
-// Factors of the material are left out, so that new ones rebuild nothing.
+// much as it mirrors.
 
 #include "maps/base_maps.glsl"
+#include "maps/mirrored_luminance.glsl"
 #include "interface/slope_moments.h"
 #include "lib/map/box_reduction.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = false;
 layout(constant_id = SPECIALISE_BASE_LOBES) const uint BASE_LOBES = BASE_LOBES_VARY;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray base_lobe_map;
@@ -22,12 +20,8 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray base_lobe_map;
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 void add_point(inout vec3 widths, vec2 point, float weight) {
-    float metallic = METALLIC_MAP ? base_texel(width_map, point).b : 1.0;
-    vec3 colour = BASE_LOBES == BASE_LOBES_COLOURED && has_map(MAP_BASE_COLOUR)
-                      ? base_texel(base_colour_map, point).rgb
-                      : vec3(1.0);
-    // glTF 2.0, appendix B.2.
-    float reflected = mix(0.04, dot(colour, vec3(0.2126, 0.7152, 0.0722)), metallic);
+    float reflected = mirrored_luminance(
+        point, BASE_LOBES == BASE_LOBES_COLOURED && has_map(MAP_BASE_COLOUR));
     float alpha = sqrt(2.0 / max(base_concentration(0, width_at(point)), 1.0));
     weight *= weight_of_point(point, constants.alpha, constants.cutoff);
     widths += weight * reflected * vec3(alpha, alpha * alpha, 1.0);

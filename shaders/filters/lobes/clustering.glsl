@@ -9,6 +9,7 @@
 // either, so that the weights of a subdivision add up to the coverage.
 
 #include "maps/base_maps.glsl"
+#include "maps/mirrored_luminance.glsl"
 #include "interface/mixture.h"
 #include "lib/map/box_reduction.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
@@ -17,6 +18,7 @@
 
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
+layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_CLUSTERS) const uint CLUSTERS = CLUSTERS_TURNED;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
@@ -65,6 +67,8 @@ void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture
         if (has_map(MAP_WIDTH))
             base_complements(width_at(point), complements);
         sums.mean.xyz += weight * (to_mixture * normal);
+        if (WEIGHTED)
+            weight *= mirrored_luminance(point, has_map(MAP_BASE_COLOUR));
         for (int i = 0; i < LOBE_COUNT; ++i) {
             vec3 axis = MODEL == MODEL_MICROFACET
                             ? normal

@@ -1,5 +1,5 @@
-// The map of base lobes through the whole renderer: rusted metal, whose roughness, metal and colour
-// go together, against the mean over its texels.
+// Base lobes that go with colours, through the whole renderer, against the mean over the texels:
+// rusted metal, and metal with a dark and rough patina.
 
 #include "tests/passes/support/fixture.h"
 
@@ -15,25 +15,35 @@
 
 enum { EXTENT = 16 };
 
-typedef struct rust_texel {
+typedef struct metal_texel {
     double roughness, metallic, colour[3];
-} rust_texel;
+} metal_texel;
+
+typedef metal_texel metal_pattern(uint32_t texel);
 
 /// From rust to steel, with places that are neither; roughness varies by itself, too.
-static rust_texel rust_at(uint32_t texel) {
+static metal_texel rust_at(uint32_t texel) {
     const double steel = passes_hashed_number(2 * texel + 1),
                  noise = passes_hashed_number(2 * texel + 2);
     const double part = steel * steel * (3 - 2 * steel);
-    return (rust_texel){.roughness = 0.8 - 0.4 * part + 0.15 * (noise - 0.5),
-                        .metallic = part,
-                        .colour = {0.2 + 0.4 * part, 0.1 + 0.5 * part, 0.05 + 0.5 * part}};
+    return (metal_texel){.roughness = 0.8 - 0.4 * part + 0.15 * (noise - 0.5),
+                         .metallic = part,
+                         .colour = {0.2 + 0.4 * part, 0.1 + 0.5 * part, 0.05 + 0.5 * part}};
 }
 
-static void add_maps(lobe_scene *scene, lobe_material *material) {
+/// All of it is metal, of a colour map alone.
+static metal_texel patina_at(uint32_t texel) {
+    const double gold = passes_hashed_number(2 * texel + 1);
+    return (metal_texel){.roughness = 0.75 - 0.35 * gold,
+                         .metallic = 1,
+                         .colour = {0.08 + 0.9 * gold, 0.05 + 0.6 * gold, 0.03 + 0.3 * gold}};
+}
+
+static void add_maps(lobe_scene *scene, metal_pattern *texel_at, lobe_material *material) {
     lobe_image colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT),
                widths = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
     for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
-        const rust_texel texel = rust_at(i);
+        const metal_texel texel = texel_at(i);
         float *colour = (float *)colours.texels + (size_t)4 * i;
         float *width = (float *)widths.texels + (size_t)4 * i;
         for (int j = 0; j < 3; j++)
@@ -48,13 +58,14 @@ static void add_maps(lobe_scene *scene, lobe_material *material) {
 }
 
 /// Over the plane z = 0.
-static void mean_of_texels(const double outgoing[3], const double incoming[3], double radiance[3]) {
+static void mean_of_texels(metal_pattern *texel_at, const double outgoing[3],
+                           const double incoming[3], double radiance[3]) {
     static const double normal[3] = {0, 0, 1};
     double half_vector[3];
     half_between(incoming, outgoing, half_vector);
     radiance[0] = radiance[1] = radiance[2] = 0;
     for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
-        const rust_texel texel = rust_at(i);
+        const metal_texel texel = texel_at(i);
         const double alpha = texel.roughness * texel.roughness;
         const double distribution =
             reference_normal_distribution(LOBE_DISTRIBUTION_GGX, normal, half_vector, alpha);
@@ -73,12 +84,13 @@ static void mean_of_texels(const double outgoing[3], const double incoming[3], d
 }
 
 /// The viewer is above, and the light at an angle from there. World: y is up.
-static void draw_rust(fixture *f, const char *filter, double degrees, float radiance[3]) {
+static void draw_metal(fixture *f, metal_pattern *texel_at, const char *filter, double degrees,
+                       float radiance[3]) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
     for (int j = 0; j < 3; j++)
         material.base_colour[j] = 1;
-    add_maps(scene, &material);
+    add_maps(scene, texel_at, &material);
     scene_add_square(scene, &material, 40, NULL);
     scene_look_from(scene, (double[]){sin(0.1), cos(0.1), 0}, 0.2);
     const double angle = degrees * M_PI / 180;
@@ -91,28 +103,42 @@ static void draw_rust(fixture *f, const char *filter, double degrees, float radi
     lobe_scene_destroy(&scene);
 }
 
-/// One lobe of the mean variance of all texels in the mean colour is 0.6 of the highlight, and 1.4
-/// times what is around it.
-static void rusted_metal_is_the_mean_of_its_texels(void **state) {
-    static const char *const filters[] = {"leadr", "multi_leadr"};
+static void must_be_mean(fixture *f, metal_pattern *texel_at, const char *filter,
+                         double tolerance) {
     static const double angles[] = {6, 20, 35, 50, 65, 75};
-    for (int i = 0; i < 12; i++) {
-        const double angle = angles[i / 2] * M_PI / 180;
+    for (int i = 0; i < 6; i++) {
+        const double angle = angles[i] * M_PI / 180;
         double expected[3];
         float found[3];
-        mean_of_texels((double[]){sin(0.1), 0, cos(0.1)}, (double[]){sin(angle), 0, cos(angle)},
-                       expected);
-        draw_rust(*state, filters[i % 2], angles[i / 2], found);
-        for (int j = 0; j < 3; j++)
-            if (!(fabs((double)found[j] - expected[j]) <= 0.08 * expected[j]))
-                fail_msg("%s, %g degrees, channel %d: %.6g instead of %.6g", filters[i % 2],
-                         angles[i / 2], j, (double)found[j], expected[j]);
+        mean_of_texels(texel_at, (double[]){sin(0.1), 0, cos(0.1)},
+                       (double[]){sin(angle), 0, cos(angle)}, expected);
+        draw_metal(f, texel_at, filter, angles[i], found);
+        for (int j = 0; j < 3; j++) {
+            if (!(fabs((double)found[j] - expected[j]) <= tolerance * expected[j]))
+                fail_msg("%s, %g degrees, channel %d: %.6g instead of %.6g", filter, angles[i], j,
+                         (double)found[j], expected[j]);
+        }
     }
+}
+
+/// One lobe of the mean variance of all texels in the mean colour is 0.6 of the highlight, and 1.4
+/// times what is around it. Of `lobes`, those of one direction have one width.
+static void rusted_metal_is_the_mean_of_its_texels(void **state) {
+    must_be_mean(*state, rust_at, "leadr", 0.08);
+    must_be_mean(*state, rust_at, "multi_leadr", 0.08);
+    must_be_mean(*state, rust_at, "lobes", 0.27);
+}
+
+static void metal_with_patina_is_the_mean_of_its_texels(void **state) {
+    must_be_mean(*state, patina_at, "leadr", 0.08);
+    must_be_mean(*state, patina_at, "multi_leadr", 0.08);
+    must_be_mean(*state, patina_at, "lobes", 0.27);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rusted_metal_is_the_mean_of_its_texels),
+        cmocka_unit_test(metal_with_patina_is_the_mean_of_its_texels),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
