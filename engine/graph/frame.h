@@ -44,6 +44,8 @@ typedef struct engine_graph_resource {
     bool permanent; ///< kept as long as the graph
     bool evolves;   ///< see lobe_buffer_description
     uint32_t settles;
+    size_t rest_offset;
+    uint64_t asked; ///< the number of the late data that say whether it rests; 0: none
     const lobe_texture *texture;
     const lobe_buffer *buffer;
     const lobe_vulkan_image *host;         ///< copy in the arena

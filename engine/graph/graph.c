@@ -111,6 +111,7 @@ static lobe_result derive_barriers(lobe_graph *graph) {
 /// From the declaration (declare/) to a frame that can be recorded (record/). Nothing is recorded
 /// here: lobe_graph_execute and lobe_graph_submit do that after compiling.
 static lobe_result (*const compile_steps[])(lobe_graph *graph) = {
+    engine_graph_ask_for_rest,       // store/retained.c      whether what settles rests
     engine_graph_check_rasters,      // declare/raster.c      attachments fit each other
     engine_graph_resolve_bindings,   // declare/binding.c     names meet shaders: uses of resources
     engine_graph_check_host_images,  // declare/host_image.c  host images allow these uses

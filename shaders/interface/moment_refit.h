@@ -85,12 +85,16 @@ struct fit_state {
     float middle_y;
     float narrowest;
     float broadest;
-    uint texels; // a number of the lobes that were fitted to
-    uint quiet;  // fits since they changed
-    uint rest;   // see refit.comp
-    float part;  // of the way from the old ones to the other
+    uint texels;    // a number of the lobes that were fitted to
+    uint quiet;     // fits since they changed
+    uint rest;      // see refit.comp
+    float part;     // of the way from the old ones to the other
+    uint unchanged; // 1: another fit to the same texels leaves all as it is
+    uint padding_0;
+    uint padding_1;
+    uint padding_2;
 };
-INTERFACE_SIZE(fit_state, 640)
+INTERFACE_SIZE(fit_state, 656)
 INTERFACE_OFFSET(fit_state, other, 192)
 INTERFACE_OFFSET(fit_state, old, 384)
 INTERFACE_OFFSET(fit_state, bins, 576)
@@ -109,6 +113,7 @@ INTERFACE_OFFSET(fit_state, texels, 624)
 INTERFACE_OFFSET(fit_state, quiet, 628)
 INTERFACE_OFFSET(fit_state, rest, 632)
 INTERFACE_OFFSET(fit_state, part, 636)
+INTERFACE_OFFSET(fit_state, unchanged, 640)
 
 // Once texels have stayed the same in so many fits, bins that become others do so in at most so
 // many more, then become those of a fit anew in as many.

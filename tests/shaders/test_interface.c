@@ -350,6 +350,7 @@ static known_member known[] = {
     MEMBER(fit_state, quiet, 16),
     MEMBER(fit_state, rest, 17),
     MEMBER(fit_state, part, 18),
+    MEMBER(fit_state, unchanged, 19),
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
     MEMBER(shared_knobs, level_blend, 2),

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "engine/base/growing_array.h"
+#include "engine/graph/store/store.h"
 
 static uint32_t at_least_one(uint32_t value) {
     return value ? value : 1;
@@ -160,6 +161,8 @@ static bool claim_retained(lobe_graph *graph, engine_graph_resource *resource,
         if (strcmp(kept->name, resource->name) == 0 && kept->identity == dependency->identity) {
             kept->declared = true;
             kept->settles = resource->settles;
+            kept->rest_offset = resource->rest_offset;
+            engine_graph_hear_of_rest(graph, kept);
             resource->retained = kept;
             dependency->recorded = kept->stamps;
             dependency->start_layouts = kept->layouts;
@@ -228,6 +231,11 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
     uint64_t limit = graph->device->limits.maxStorageBufferRange;
     if (name && description->size == 0)
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "buffer '%s': the size is 0", name);
+    else if (name && description->rest_offset > 0 &&
+             (description->size < 4 || description->rest_offset > description->size - 4))
+        lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
+                        "buffer '%s': rest_offset is %zu, but there are %zu bytes", name,
+                        description->rest_offset, description->size);
     else if (name && description->size > limit)
         lobe_graph_fail(graph, LOBE_ERROR_LIMIT,
                         "buffer '%s': %zu bytes, the device's limit is %llu", name,
@@ -239,8 +247,10 @@ lobe_resource lobe_graph_buffer(lobe_graph *graph, const lobe_buffer_description
                                       .levels = 1,
                                       .size = description->size,
                                       .evolves = description->retained && description->evolves};
-    if (resource.evolves)
+    if (resource.evolves) {
         resource.settles = description->settles;
+        resource.rest_offset = description->rest_offset;
+    }
     return declare(graph, &resource, description->retained);
 }
 

@@ -36,11 +36,10 @@ static engine_stamp stamp_settling(engine_dependency_graph *graph,
     if (access->kind != ENGINE_ACCESS_MODIFY || resource->settles == 0)
         return change;
     const bool begins = engine_access_source(graph, access, 0) != ENGINE_DEPENDENCY_NONE;
-    const bool rests = begins || (settled->change == change && settled->runs == resource->settles);
-    const uint32_t runs = rests                       ? resource->settles
-                          : settled->change == change ? settled->runs + 1
-                                                      : 0;
-    resource->settling = (engine_settling){change, runs};
+    const bool same = settled->change == change;
+    const bool rests = settled->rests || settled->runs == resource->settles;
+    const uint32_t runs = begins ? resource->settles : same ? settled->runs + !rests : 0;
+    resource->settling = (engine_settling){change, runs, same && settled->rests};
     return engine_stamp_mix(change, runs);
 }
 

@@ -78,6 +78,7 @@ typedef struct engine_dependency_fault {
 typedef struct engine_settling {
     engine_stamp change; ///< digest of everything else that it reads
     uint32_t runs;       ///< with the same
+    bool rests;          ///< running it again would change nothing
 } engine_settling;
 
 typedef struct engine_dependency_resource {

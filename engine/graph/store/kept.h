@@ -49,7 +49,10 @@ typedef struct engine_graph_retained {
     bool evolves;           ///< see lobe_buffer_description
     uint32_t settles;
     engine_settling settled; ///< what evolves: see engine_dependency_resource
-    bool exported;           ///< the host may have it in descriptors of its own
+    size_t rest_offset;
+    uint64_t asked;            ///< the number of the late data that say whether it rests; 0: none
+    engine_stamp asked_change; ///< `change` when they were asked for
+    bool exported;             ///< the host may have it in descriptors of its own
     engine_graph_object object;
     engine_allocation allocation;
     engine_shared *shared; ///< how they find it; NULL: never

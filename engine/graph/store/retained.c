@@ -167,11 +167,50 @@ void lobe_graph_forget_buffer(lobe_graph *graph, const char *name) {
             clear_content(kept);
 }
 
+// ---------------------------------------------------------------------------------------------
+// What settles
+
+/// Whether the device has said that the content rests, and nothing else has changed since.
+static bool rests(const lobe_graph *graph, const engine_graph_retained *kept) {
+    uint32_t answer = 0;
+    const char *content = kept->asked ? lobe_graph_late_data(graph, kept->asked, NULL) : NULL;
+    if (content)
+        memcpy(&answer, content + kept->rest_offset, sizeof answer);
+    return kept->settled.rests || (answer == 1 && kept->settled.change == kept->asked_change);
+}
+
+void engine_graph_hear_of_rest(const lobe_graph *graph, engine_graph_retained *kept) {
+    bool pending = false;
+    if (kept->asked)
+        (void)lobe_graph_late_data(graph, kept->asked, &pending);
+    kept->settled.rests = rests(graph, kept);
+    if (!pending)
+        kept->asked = 0;
+}
+
+static bool settles(const engine_graph_retained *kept) {
+    return kept->settled.runs < kept->settles && !kept->settled.rests;
+}
+
 bool lobe_graph_settles(const lobe_graph *graph) {
     const engine_graph_retained *kept = graph ? graph->kept.retained : NULL;
-    while (kept && !(kept->declared && kept->settled.runs < kept->settles))
+    while (kept && !(kept->declared && settles(kept) && !rests(graph, kept)))
         kept = kept->next;
     return kept != NULL;
+}
+
+lobe_result engine_graph_ask_for_rest(lobe_graph *graph) {
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        engine_graph_resource *resource = &graph->frame.resources[i];
+        const engine_graph_retained *kept = resource->retained;
+        const uint32_t version = graph->frame.dependencies.resources[i].version;
+        // Not in frames after which something else changed: in each there may be another change.
+        if (kept && resource->rest_offset > 0 && version > 1 && !kept->asked && settles(kept) &&
+            kept->settled.runs > 0)
+            resource->asked =
+                lobe_graph_read_back_late(graph, (lobe_resource){i, version}, (lobe_range){0});
+    }
+    return graph->frame.result;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -194,7 +233,8 @@ static engine_graph_retained *allocate(const lobe_graph *graph, uint32_t index) 
         .declared = true,
         .permanent = resource->permanent,
         .evolves = resource->evolves,
-        .settles = resource->settles};
+        .settles = resource->settles,
+        .rest_offset = resource->rest_offset};
     if (kept->name && kept->stamps && kept->layouts)
         return kept;
     lobe_release(kept->name);
@@ -303,5 +343,9 @@ void engine_graph_stamp_retained(lobe_graph *graph) {
                                        graph->frame.dependencies.resources[i].first_subresource;
         if (kept)
             memcpy(kept->layouts, layouts, kept->subresource_count * sizeof *layouts);
+        if (kept && graph->frame.resources[i].asked) {
+            kept->asked = graph->frame.resources[i].asked;
+            kept->asked_change = kept->settled.change;
+        }
     }
 }

@@ -34,6 +34,12 @@ lobe_result engine_graph_add_retained(lobe_graph *graph, uint32_t index);
 /// Lets the object and its content go. All frames must have finished.
 void engine_graph_drop_retained(lobe_graph *graph, engine_graph_retained *kept);
 
+/// Before it is declared: takes over what the device has said of it (see
+/// lobe_buffer_description.rest_offset).
+void engine_graph_hear_of_rest(const lobe_graph *graph, engine_graph_retained *kept);
+/// Compilation, before anything else: has what settles read back.
+lobe_result engine_graph_ask_for_rest(lobe_graph *graph);
+
 /// Frees what the frame after this flight's did not declare. The flight's frame must have finished.
 void engine_graph_free_released(lobe_graph *graph, engine_graph_flight *flight);
 

@@ -121,6 +121,10 @@ typedef struct lobe_buffer_description {
     /// again in as many frames after the last change of something else that it reads; not where it
     /// found nothing, because a pass of the same frame had to write the buffer first.
     uint32_t settles;
+    /// Of one that settles: the byte, above 0, from which the pass leaves a number (uint32) that is
+    /// 1 where running it again would change nothing. While it settles, lobe reads that back
+    /// without waiting for it, and then runs the pass no longer. 0: nowhere.
+    size_t rest_offset;
 } lobe_buffer_description;
 
 /// Declares an image or buffer that passes of this frame write. It has no content before that,

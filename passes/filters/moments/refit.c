@@ -1,5 +1,6 @@
 #include "passes/filters/moments/refit.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
 #include "passes/context/material_specialisation.h"
@@ -50,7 +51,8 @@ static lobe_resource declare_state(const filter_context *context, uint32_t index
                             .size = sizeof(struct fit_state),
                             .retained = true,
                             .evolves = true,
-                            .settles = follows ? FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1) : 0});
+                            .settles = follows ? FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1) : 0,
+                            .rest_offset = offsetof(struct fit_state, unchanged)});
 }
 
 /// Gives the pass what the last fit left: zeros, if there was none. Where nothing of it counts,

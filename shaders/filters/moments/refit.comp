@@ -286,6 +286,7 @@ struct progress {
     // Where an earlier fit goes on:
     bool follows;
     bool settles;   // a fit anew, which the bins become
+    bool unchanged; // bins rest, and are only measured
     uint texels;    // a number of the lobes
     uint quiet;     // fits since they changed
     uint rest;      // how near bins are to those of a fit anew to the same lobes
@@ -862,7 +863,7 @@ uint number_of_lobes() {
 // Where texels have stayed the same for some fits, bins become those of a fit anew, and stay.
 void rest(inout progress at) {
     if (at.rest == RESTS) {
-        at.shows = true;
+        at.shows = at.unchanged = true;
     } else if (at.next == BLEND) {
         at.round = at.quiet == FIT_RESTS_AFTER ? 0 : state.round;
         blend(at);
@@ -903,7 +904,7 @@ progress fit(plane_range range) {
     at.texels = number_of_lobes();
     at.quiet = 0;
     at.rest = MOVES;
-    at.saves = at.shows = at.settles = false;
+    at.saves = at.shows = at.settles = at.unchanged = false;
     at.old = 0.0;
     at.follows = knows_earlier();
     at.begins = !at.follows;
@@ -951,6 +952,7 @@ void save_state(progress at) {
         state.texels = at.texels;
         state.quiet = min(at.quiet, 1000u);
         state.rest = at.rest;
+        state.unchanged = at.unchanged ? 1u : 0u;
     }
 }
 

@@ -406,6 +406,90 @@ static void what_settles_runs_again_after_the_last_change(void **state) {
     }
 }
 
+/// "approach" goes a step towards a goal, and says when it is there; it settles in 20 frames at
+/// most.
+static void declare_approach(graph_fixture *fixture, uint32_t goal) {
+    lobe_graph_begin(fixture->graph);
+    lobe_resource state =
+        lobe_graph_buffer(fixture->graph, &(lobe_buffer_description){.name = "state",
+                                                                     .size = 2 * sizeof goal,
+                                                                     .retained = true,
+                                                                     .evolves = true,
+                                                                     .settles = 20,
+                                                                     .rest_offset = sizeof goal});
+    if (!lobe_graph_has_content(fixture->graph, state)) {
+        lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "empty");
+        state = lobe_pass_fill(pass, state, (lobe_range){0}, (const float[4]){0});
+    }
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_COMPUTE, "approach");
+    const lobe_resource source = lobe_graph_upload(fixture->graph, "source", &goal, sizeof goal);
+    lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = source});
+    state = lobe_pass_modify(pass, &(lobe_binding){.name = "state_block", .resource = state});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "graph_approach.comp", .threads = {1, 1, 1}});
+    lobe_graph_output(fixture->graph, state);
+}
+
+static void approach(graph_fixture *fixture, uint32_t goal) {
+    declare_approach(fixture, goal);
+    graph_fixture_execute(fixture);
+}
+
+/// The number of frames after the last one in which "approach" runs: none of the next twenty others
+/// may.
+static int count_settling(graph_fixture *fixture, uint32_t goal) {
+    int count = 0;
+    for (int i = 0; i < 20; i++) {
+        const bool settles = lobe_graph_settles(fixture->graph);
+        approach(fixture, goal);
+        const bool ran = graph_fixture_state(fixture, "approach") == LOBE_PASS_RUN;
+        assert_true(ran == settles && (!ran || count == i));
+        count += ran;
+    }
+    return count;
+}
+
+static void what_settles_stops_where_the_device_says_so(void **state) {
+    graph_fixture *fixture = *state;
+    approach(fixture, 2);
+    assert_int_equal(count_settling(fixture, 2), 0);
+    // A step with the change, three more, and one that changes nothing.
+    approach(fixture, 5);
+    assert_int_equal(count_settling(fixture, 5), 4);
+    // The device says so at once, but is asked in the second frame after a change.
+    approach(fixture, 5);
+    approach(fixture, 4);
+    assert_int_equal(count_settling(fixture, 4), 2);
+    // It says so of what is no longer the last change.
+    approach(fixture, 5);
+    approach(fixture, 5);
+    approach(fixture, 5);
+    assert_false(lobe_graph_settles(fixture->graph));
+    approach(fixture, 9);
+    assert_true(lobe_graph_settles(fixture->graph));
+    assert_int_equal(count_settling(fixture, 9), 4);
+    // It never says so.
+    approach(fixture, 100);
+    assert_int_equal(count_settling(fixture, 100), 20);
+}
+
+/// Nobody waits to hear it.
+static void the_device_says_late_that_something_rests(void **state) {
+    graph_fixture *fixture = *state;
+    const lobe_vulkan_submission plain = {0};
+    int runs = 0;
+    lobe_graph_set_frames_in_flight(fixture->graph, 3);
+    for (int i = 0; i < 20; i++) {
+        declare_approach(fixture, i == 0 ? 1 : 4);
+        assert_int_equal(lobe_graph_submit(fixture->graph, &plain), LOBE_OK);
+        runs += graph_fixture_state(fixture, "approach") == LOBE_PASS_RUN;
+    }
+    assert_false(lobe_graph_settles(fixture->graph));
+    // Asked in the second and the fifth frame after the change, heard three frames later.
+    assert_int_equal(runs, 1 + 8);
+    assert_int_equal(lobe_graph_wait(fixture->graph), LOBE_OK);
+}
+
 static void a_kept_pass_is_skipped_while_its_results_are_valid(void **state) {
     graph_fixture *fixture = *state;
     for (int i = 0; i < 2; i++) {
@@ -493,6 +577,8 @@ int main(void) {
         TEST(what_evolves_goes_on_when_something_else_changes),
         TEST(what_evolves_may_begin_again),
         TEST(what_settles_runs_again_after_the_last_change),
+        TEST(what_settles_stops_where_the_device_says_so),
+        TEST(the_device_says_late_that_something_rests),
         TEST(a_kept_pass_is_skipped_while_its_results_are_valid),
         TEST(a_failed_frame_changes_nothing),
         TEST(raster_passes_are_compared),

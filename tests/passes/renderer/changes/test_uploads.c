@@ -245,15 +245,18 @@ static void a_fit_serves_the_frames_after_it(void **state) {
     stop(f, &scene);
 }
 
-/// Bins go on for some frames, then stay.
+/// Bins go on for some frames, then stay: each material's until a fit has left them as they were.
 static void check_rest(fixture *f) {
-    size_t refits, frames = 0;
-    uint64_t hash = 0;
-    for (; lobe_graph_settles(lobe_renderer_graph(f->renderer)); frames++) {
+    enum { MOST = FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1) };
+    size_t refits, before = MATERIALS, frames = 0;
+    uint64_t hash = 0, former = 0;
+    for (; lobe_graph_settles(lobe_renderer_graph(f->renderer)); frames++, before = refits) {
+        former = hash;
         hash = moments_picture(f->renderer, "refit=follow", &refits);
-        assert_int_equal(refits, MATERIALS);
+        assert_true(refits > 0 && refits <= before);
     }
-    assert_int_equal(frames, FIT_RESTS_AFTER + 2 * (FITS_OF_SETTLING + 1));
+    assert_true(frames > FIT_RESTS_AFTER && frames < MOST);
+    assert_true(hash == former);
     assert_true(moments_picture(f->renderer, "refit=follow", &refits) == hash);
     assert_int_equal(refits, 0);
 }
