@@ -57,7 +57,7 @@ void lobe_graph_destroy(lobe_graph **graph) {
     (void)engine_graph_finish_flights(gone);
     reset_frame(gone);
     engine_graph_free_retained(gone);
-    engine_graph_free_transients(gone);
+    engine_graph_free_transients(gone, &gone->kept.transients);
     engine_graph_free_flights(gone);
     engine_uploads_free(&gone->kept.uploads);
     engine_dependency_graph_free(&gone->frame.dependencies);

@@ -43,6 +43,7 @@ void engine_graph_retire_flight(lobe_graph *graph, engine_graph_flight *flight) 
     engine_graph_free_views(graph->device, &imported);
     flight->views = NULL;
     engine_graph_free_released(graph, flight);
+    engine_graph_free_transients(graph, &flight->transients);
     engine_uploads_release(&graph->kept.uploads, flight->copied);
     if (flight->busy)
         engine_pipelines_end_use(graph->device, &flight->pipelines);

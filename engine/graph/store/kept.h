@@ -88,8 +88,9 @@ typedef struct engine_graph_flight {
     engine_staging read_back;
     engine_graph_late_data *late_data; ///< of the frame last submitted
     uint32_t late_count, late_capacity;
-    engine_graph_retained *released; ///< that the frame after this one did not declare
-    engine_graph_view *views;        ///< of host images that came without a view
+    engine_graph_retained *released;    ///< that the frame after this one did not declare
+    engine_graph_transients transients; ///< the frame's, if the one after it needed others
+    engine_graph_view *views;           ///< of host images that came without a view
     VkDescriptorPool descriptors;
     uint32_t descriptor_capacity[5]; ///< sets, then descriptors by type
     VkDescriptorSet *sets;           ///< from the pool, in the order of the commands

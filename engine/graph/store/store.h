@@ -71,8 +71,8 @@ void engine_graph_publish_retained(lobe_graph *graph);
 /// Compilation: gives the transient resources of running passes their objects; resources that are
 /// not alive at the same time share memory. Reuses everything if the last frame needed the same.
 lobe_result engine_graph_place_transients(lobe_graph *graph);
-/// All frames must have finished.
-void engine_graph_free_transients(lobe_graph *graph);
+/// The frames that use them must have finished.
+void engine_graph_free_transients(lobe_graph *graph, engine_graph_transients *transients);
 
 // ---------------------------------------------------------------------------------------------
 // What comes from the host (imports.c)

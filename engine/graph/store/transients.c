@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "engine/graph/declare/declare.h"
 #include "engine/graph/plan/alias.h"
 
 // ---------------------------------------------------------------------------------------------
@@ -51,8 +52,7 @@ static engine_stamp plan_stamp(const lobe_graph *graph) {
     return stamp;
 }
 
-void engine_graph_free_transients(lobe_graph *graph) {
-    engine_graph_transients *transients = &graph->kept.transients;
+void engine_graph_free_transients(lobe_graph *graph, engine_graph_transients *transients) {
     for (uint32_t i = 0; i < transients->count; i++)
         engine_graph_free_object(graph->device, &transients->objects[i]);
     for (uint32_t i = 0; i < transients->block_count; i++)
@@ -242,20 +242,51 @@ static void publish_transients(lobe_graph *graph) {
     }
 }
 
+/// Whether there is memory for the frame's transients, even if none shared it, beside what there
+/// is.
+static bool has_room_beside(const lobe_graph *graph) {
+    lobe_device_memory memory;
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        const engine_graph_resource *resource = &graph->frame.resources[i];
+        const lobe_range whole = {0, resource->levels, 0, resource->layers};
+        if (is_placed(graph, i))
+            bytes += engine_graph_range_bytes(resource, &whole) *
+                     (resource->samples > 1 ? resource->samples : 1);
+    }
+    lobe_device_memory_query(graph->device, &memory);
+    return memory.budget_bytes > memory.allocated_bytes &&
+           2 * bytes <= memory.budget_bytes - memory.allocated_bytes;
+}
+
+/// What the last frame may still use goes when the device has finished it. Where there is little
+/// memory for both, frames are waited for.
+static lobe_result release_transients(lobe_graph *graph) {
+    engine_graph_transients *transients = &graph->kept.transients;
+    engine_graph_flight *last = graph->kept.last;
+    lobe_result result = LOBE_OK;
+    if (last && last->busy && last->transients.count == 0 && has_room_beside(graph)) {
+        last->transients = *transients;
+        *transients = (engine_graph_transients){0};
+        return LOBE_OK;
+    }
+    if (transients->count > 0)
+        result = engine_graph_finish_frames(graph);
+    if (result == LOBE_OK)
+        engine_graph_free_transients(graph, transients);
+    return result;
+}
+
 lobe_result engine_graph_place_transients(lobe_graph *graph) {
     if (graph->frame.aside && !has_transients(graph))
         return LOBE_OK; // the next frame finds those of the last one
     engine_stamp plan = plan_stamp(graph);
     if (graph->kept.transients.plan != plan) {
-        lobe_result result = LOBE_OK;
-        if (graph->kept.transients.count > 0)
-            result = engine_graph_finish_frames(graph);
-        if (result != LOBE_OK)
-            return result;
-        engine_graph_free_transients(graph);
-        result = make_transients(graph);
+        lobe_result result = release_transients(graph);
+        if (result == LOBE_OK)
+            result = make_transients(graph);
         if (result != LOBE_OK) {
-            engine_graph_free_transients(graph);
+            engine_graph_free_transients(graph, &graph->kept.transients);
             return result;
         }
         graph->kept.transients.plan = plan;

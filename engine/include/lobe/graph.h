@@ -413,11 +413,10 @@ LOBE_API void lobe_graph_set_frames_in_flight(lobe_graph *graph, uint32_t count)
 /// buffer, as `submission` says. lobe_graph_begin waits until fewer frames than allowed are in
 /// flight. It cannot wait for frames in command buffers of the host: with N frames in flight, the
 /// host must make sure that the frame recorded N frames ago has finished before it begins the next.
-/// If a frame needs other memory than the last (images of another extent), or does not declare what
-/// was exported, its compilation waits for the queue. After a failure, the host's command buffer
-/// must not be submitted.
-/// Errors: those of lobe_graph_execute, LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command
-/// buffer, or too many).
+/// If a frame needs other memory than the last (images of another extent) and there is not room for
+/// both, or it does not declare what was exported, its compilation waits for the queue. After a
+/// failure, the host's command buffer must not be submitted. Errors: those of lobe_graph_execute,
+/// LOBE_ERROR_INVALID_ARGUMENT (semaphores with a command buffer, or too many).
 LOBE_API lobe_result lobe_graph_submit(lobe_graph *graph, const lobe_vulkan_submission *submission);
 
 /// Waits until the device has finished the frame last submitted; then lobe_graph_data has its data
