@@ -566,15 +566,27 @@ float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
     return sum;
 }
 
+// Second moments of the slopes of all facets: of their normals' places, which are about as large.
+vec3 moments_of_slopes(facet_group groups[FACET_BINS]) {
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        sum += groups[k].size * (groups[k].places + second_moments_of(groups[k].mean));
+    return sum;
+}
+
 // The height of directions from which on the relief hides no light that facets mirror to the
 // viewer, on the side that their mean mirrors: found where the lobe is, but low enough that
-// something is hidden. `deviation`: of the lobe's height.
-float height_of_open_sky(facet_group groups[FACET_BINS], vec3 mirrored, float deviation) {
-    const float LEAST_HEIGHT = 0.05, MOST_HEIGHT = 0.4;
+// something is hidden, which of Gaussian slopes it is up to about their deviation.
+// `deviation`: of the lobe's height. `slopes`: see moments_of_slopes().
+float height_of_open_sky(facet_group groups[FACET_BINS], vec3 slopes, vec3 mirrored,
+                         float deviation) {
+    const float LEAST_HEIGHT = 0.05, MOST_HEIGHT = 0.4, DEVIATIONS = 0.75;
+    vec2 level = inversesqrt(max(dot(mirrored.xy, mirrored.xy), 1e-8)) * mirrored.xy;
+    float most = clamp(DEVIATIONS * sqrt(max(covariance_along(slopes, level, level), 0.0)), 1e-3,
+                       MOST_HEIGHT);
     positive_part above = positive_part_of(mirrored.z / deviation);
-    float height = clamp(mirrored.z + deviation * above.shift, LEAST_HEIGHT, MOST_HEIGHT);
-    float level = inversesqrt(max(dot(mirrored.xy, mirrored.xy), 1e-8));
-    vec3 direction = vec3(sqrt(1.0 - height * height) * level * mirrored.xy, height);
+    float height = clamp(mirrored.z + deviation * above.shift, min(LEAST_HEIGHT, most), most);
+    vec3 direction = vec3(sqrt(1.0 - height * height) * level, height);
     float open = seen_part(facing_area(groups, direction), direction);
     return height * drawn.seen / max(seen_by_both(drawn.seen, open), 0.02 * drawn.seen);
 }
@@ -608,6 +620,7 @@ mirroring_bins find_bins(surface_point surface, float width) {
     for (uint k = 0u; k < FACET_BINS; ++k)
         bins.groups[k] = facets_of_bin(surface, area, k);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
+    vec3 slopes = moments_of_slopes(bins.groups);
     float roughness = roughness_from_parameter(DISTRIBUTION, width);
     float alpha = roughness * roughness;
     bins.shown = bins.facets = 0.0;
@@ -621,7 +634,7 @@ mirroring_bins find_bins(surface_point surface, float width) {
             continue;
         vec3 mirrored = reflect(-drawn.viewer, normalize(seen.mean));
         float deviation = deviation_of_mirrored(seen, drawn.viewer);
-        float top = height_of_open_sky(bins.groups, mirrored, deviation);
+        float top = height_of_open_sky(bins.groups, slopes, mirrored, deviation);
         float area = size * drawn.seen * mean_facing_cosine(normals, drawn.viewer);
         float lit = min(faded_below(mirrored.z / deviation, top / deviation).share, 1.0);
         bins.areas[k] = area * mix(lit, 0.5 + 0.5 * closure.direct, alpha);
