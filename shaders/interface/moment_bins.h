@@ -9,8 +9,10 @@
 //
 // With p the lobe's place in the plane, g = 1 / sqrt(v) its sharpness, v its variance and m its
 // mass, all in units in which they are within [-1, 1] (moment_bin), bin b has
-// [b layers + 0]  sums of m, m p_x, m p_y, m g
-// [b layers + 1]  sums of m p_x p_x, m p_y p_y, m p_x p_y, m v
+// [b layers + 0]  sums of m, l p_x, l p_y, l g; l is m or, where bins have colours, what is
+// mirrored
+//                 of it (filters/moments/mirrored.glsl)
+// [b layers + 1]  sums of l p_x p_x, l p_y p_y, l p_x p_y, l v
 // [b layers + 2]  where bins have colours: sum of m times the specular colour. Of microfacets the
 //                 colour that the base colour gives to metal, and in alpha m times what is not
 //                 metal, because the mesh's colours tint the base colour alone

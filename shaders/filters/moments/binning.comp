@@ -5,13 +5,15 @@
 // The finest level of a map of lobe moments: every base lobe of the texels under a target texel
 // adds its mass, place, second moments of the place, sharpness and variance in the Lambert plane to
 // the bins that it belongs to. All of these are sums, so that filtering the map linearly filters
-// the lobes. The texels' own lobes are level 0; the map starts where texels are averaged.
+// the lobes. In bins with colours, all but the mass count by what the lobe mirrors. The texels' own
+// lobes are level 0; the map starts where texels are averaged.
 //
 // With SEEN_TILES, only the tiles that are listed, of any level: its texels are then made from as
 // many points of the base maps as the knob `texel_samples` says.
 
 #include "maps/plane_lobes.glsl"
 #include "lib/lobe/bin_membership.glsl"
+#include "filters/moments/mirrored.glsl"
 #include "lib/map/box_reduction.glsl"
 #include "lib/number/hash.glsl"
 #include "maps/target_texel.glsl"
@@ -31,8 +33,8 @@ layout(set = 0, binding = 17, std140) uniform binning_block { moment_binning_con
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 struct bin_sums {
-    vec4 place[MOMENT_MAXIMUM_BINS];  // m, m p, m g
-    vec4 spread[MOMENT_MAXIMUM_BINS]; // m p p, m v
+    vec4 place[MOMENT_MAXIMUM_BINS];  // m, l p, l g; l: m, or in bins with colours what it mirrors
+    vec4 spread[MOMENT_MAXIMUM_BINS]; // l p p, l v
     vec4 colour[MOMENT_MAXIMUM_BINS];
     vec4 diffuse; // and how much all count
 };
@@ -72,6 +74,7 @@ void share_hats(plane_lobe lobe, out float members[MOMENT_MAXIMUM_BINS]) {
 
 void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
     float members[MOMENT_MAXIMUM_BINS];
+    float mirrored = BIN_COLOUR ? mirrored_by(lobe.colour, colour_unit()) : 1.0;
     if (PARTITION == PARTITION_FITTED)
         share_fitted(lobe, members);
     else
@@ -80,9 +83,9 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
         vec4 range = binning.bins[i].range;
         vec2 p = (lobe.place - range.xy) / range.z;
         float mass = members[i] * weight * lobe.mass / binning.largest.x;
-        sums.place[i] += mass * vec4(1.0, p, inversesqrt(lobe.variance) / range.w);
-        sums.spread[i] +=
-            mass * vec4(p * p, p.x * p.y, lobe.variance / binning.bins[i].shape.w);
+        sums.place[i] += mass * vec4(1.0, mirrored * vec3(p, inversesqrt(lobe.variance) / range.w));
+        sums.spread[i] += mass * mirrored *
+                          vec4(p * p, p.x * p.y, lobe.variance / binning.bins[i].shape.w);
         if (BIN_COLOUR)
             sums.colour[i] += mass * lobe.colour;
     }

@@ -11,6 +11,7 @@ layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 
 #include "filters/moments/plane_bin.glsl"
+#include "filters/moments/mirrored.glsl"
 
 layout(LOBE_DESCRIPTOR(22), std140) uniform binning_block { moment_binning_constants binning; };
 
@@ -40,9 +41,15 @@ plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uin
     uint layers = BIN_COLOUR ? 3u : 2u;
     vec4 place = moment_layer(texels, layers * index);
     vec4 spread = moment_layer(texels, layers * index + 1u);
-    float scale = 1.0 / max(place.x, 1e-6);
+    float per_mass = 1.0 / max(place.x, 1e-6), scale = per_mass;
     vec4 range = binning.bins[index].range;
     plane_bin bin;
+    if (BIN_COLOUR) {
+        vec4 colour = per_mass * moment_layer(texels, layers * index + 2u);
+        scale /= mirrored_by(colour, colour_unit());
+        bin.colour = colour_of_bin(surface, vec4(colour_unit() * colour.rgb, colour.a));
+        bin.dielectric = colour.a;
+    }
     bin.mass = mass_scale * place.x * binning.largest.x;
     vec2 mean = place.yz * scale;
     bin.mean = mean * range.z + range.xy;
@@ -58,12 +65,6 @@ plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uin
     make_terms(bin, covariance, base, varies);
     bin.spread = 0.5 * (covariance.x + covariance.y);
     keep_shape(bin, varies);
-    if (BIN_COLOUR) {
-        vec4 colour = vec4(vec3(scale * colour_unit()), scale) *
-                      moment_layer(texels, layers * index + 2u);
-        bin.colour = colour_of_bin(surface, colour);
-        bin.dielectric = colour.a;
-    }
     return bin;
 }
 

@@ -45,9 +45,18 @@ static void read_colours(const lobe_scene *scene, const lobe_material *material,
     }
 }
 
+/// The luminance of F0, and a little in any case.
+static double mirrored_by(const lobe_material *material, const double colour[4], double unit) {
+    const double luminance =
+        0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2] + 0.04 * colour[3];
+    return material->model == LOBE_MATERIAL_MICROFACET ? 0.02 + 0.98 * luminance / fmax(unit, 1)
+                                                       : 1;
+}
+
 static reference_plane_lobe lobe_at_point(const lobe_material *material, uint32_t i,
                                           const double normal[3], const double width[4],
-                                          const double specular[4], bool as_lobe) {
+                                          const double specular[4], bool as_lobe,
+                                          double colour_unit) {
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     lobe_distribution distribution = as_lobe ? LOBE_DISTRIBUTION_VMF : material->distribution;
     double parameter = as_lobe ? base_lobe_concentration(material, i, width)
@@ -60,6 +69,7 @@ static reference_plane_lobe lobe_at_point(const lobe_material *material, uint32_
         lobe.colour[j] =
             specular[j] * (microfacet ? 1 : (double)material->lobes[i].colour[j] / share);
     }
+    lobe.mirrored = mirrored_by(material, lobe.colour, colour_unit);
     reference_rotate_from_pole(normal, local, axis);
     reference_plane_from_direction(axis, lobe.place);
     lobe.variance = reference_plane_variance(distribution, parameter);
@@ -81,8 +91,8 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
         read_colours(scene, material, (x + 0.5 + offset) / layers.width,
                      (y + 0.5 + offset) / layers.height, width, specular, diffuse);
         for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
-            reference_plane_lobe lobe =
-                lobe_at_point(material, i, normal, width, specular, as_lobe);
+            reference_plane_lobe lobe = lobe_at_point(material, i, normal, width, specular, as_lobe,
+                                                      partition->colour_scale);
             lobe.mass /= points.count;
             reference_add_plane_lobe(partition, &lobe, &layers, x, y);
         }
@@ -138,11 +148,18 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
     const double *place = moments + 4 * i * (partition->colour ? 3 : 2), *spread = place + 4;
     const struct moment_bin *range = &partition->constants.bins[i];
     bin result = {.mass = place[0] * partition->mass_scale, .dielectric = 1};
-    double square = (double)range->range[2] * (double)range->range[2];
+    double square = (double)range->range[2] * (double)range->range[2], counts = place[0];
+    if (partition->colour) {
+        const double colour[4] = {partition->colour_scale * place[8] / place[0],
+                                  partition->colour_scale * place[9] / place[0],
+                                  partition->colour_scale * place[10] / place[0],
+                                  place[11] / place[0]};
+        counts *= mirrored_by(material, colour, partition->colour_scale);
+    }
     for (int j = 0; j < 3; j++) {
         int a = j == 1, b = j != 0;
         result.covariance[j] =
-            square * (spread[j] / place[0] - place[1 + a] * place[1 + b] / (place[0] * place[0]));
+            square * (spread[j] / counts - place[1 + a] * place[1 + b] / (counts * counts));
         if (!partition->colour)
             continue;
         result.colour[j] = place[8 + j] / place[0] * partition->colour_scale;
@@ -151,13 +168,12 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
             result.colour[j] += 0.04 * result.dielectric;
     }
     for (int j = 0; j < 2; j++)
-        result.mean[j] =
-            place[1 + j] / place[0] * (double)range->range[2] + (double)range->range[j];
-    result.sharpness = place[3] / place[0] * (double)range->range[3];
+        result.mean[j] = place[1 + j] / counts * (double)range->range[2] + (double)range->range[j];
+    result.sharpness = place[3] / counts * (double)range->range[3];
     result.widths = material->metallic_roughness_map.image >= 0 || material->width_map.image >= 0;
     for (uint32_t j = 1; j < material->lobe_count; j++)
         result.widths |= material->lobes[j].width != material->lobes[0].width;
-    result.mean_variance = spread[3] / place[0] * (double)range->shape[3];
+    result.mean_variance = spread[3] / counts * (double)range->shape[3];
     find_widths(&result, result.mean_variance, material->distribution);
     reference_plane_distortion(result.mean, result.base);
     for (int j = 0; j < 3; j++)

@@ -22,6 +22,7 @@ typedef struct reference_moment_bins {
 typedef struct reference_plane_lobe {
     double place[2], variance, mass;
     double colour[4]; ///< specular; of microfacets that of metal, and what is not metal
+    double mirrored;  ///< how much it counts in a bin with colours, over its mass
 } reference_plane_lobe;
 
 /// Layers of a map.

@@ -109,7 +109,8 @@ static double diffuse_of(double albedo, double metallic, bool microfacet) {
 }
 
 /// Averaged maps multiply means: the colour of metal by how much is metal.
-static void average_colours(footprint *patch, bool microfacet) {
+static void average_colours(footprint *patch) {
+    const bool microfacet = patch->microfacet;
     double albedo[3] = {0}, specular[3] = {0}, diffuse[3] = {0}, metallic = 0, total = 0;
     for (uint32_t k = 0; k < patch->count; k++) {
         const plane_sample *lobe = &patch->lobes[k];
@@ -136,7 +137,7 @@ bool passes_footprint_is_sharp(double variance) {
     return variance < broad_light;
 }
 
-void passes_footprint_complete(footprint *patch, bool microfacet) {
+void passes_footprint_complete(footprint *patch) {
     double total = 0;
     for (uint32_t k = 0; k < patch->count; k++)
         total += patch->lobes[k].weight;
@@ -147,27 +148,32 @@ void passes_footprint_complete(footprint *patch, bool microfacet) {
         draw_places(patch, &patch->lights[i]);
         find_truth(patch, &patch->lights[i]);
     }
-    average_colours(patch, microfacet);
+    average_colours(patch);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Bins
 
-/// The sums that a pixel fetches of a bin.
-typedef struct bin_sums {
+/// Sums over the lobes of a bin, by what each counts.
+typedef struct shape_sums {
     plane_sums places;
-    double sharpness, colour[3];
+    double sharpness;
+} shape_sums;
+
+/// The sums that a pixel fetches of a bin: of its mass or, if it has a colour, of what that
+/// mirrors.
+typedef struct bin_sums {
+    shape_sums by_mass, by_mirrored;
+    double colour[3];
 } bin_sums;
 
 /// The bin about as a pixel sees it (shaders/filters/moments/bins.glsl): base lobes of two widths;
 /// the tails of GGX are left out.
 typedef struct footprint_bin {
     bell terms[2];
-    double colour[3];
 } footprint_bin;
 
-static bell bell_of_bin(const bin_sums *sums, double base) {
-    const plane_sums *places = &sums->places;
+static bell bell_of_bin(const plane_sums *places, double mass, double base) {
     double covariance[3], inverse[3];
     bell result;
     for (int i = 0; i < 2; i++)
@@ -179,7 +185,7 @@ static bell bell_of_bin(const bin_sums *sums, double base) {
         covariance[i] = base * covariance[i] + (i == 2 ? moment : fmax(moment, 0));
     }
     double determinant = fmax(covariance[0] * covariance[1] - covariance[2] * covariance[2], 1e-16);
-    result.peak = 0.5 * places->weight / (2 * M_PI * sqrt(determinant));
+    result.peak = 0.5 * mass / (2 * M_PI * sqrt(determinant));
     result.inverse[0] = covariance[1] / determinant;
     result.inverse[1] = covariance[0] / determinant;
     result.inverse[2] = -covariance[2] / determinant;
@@ -188,18 +194,30 @@ static bell bell_of_bin(const bin_sums *sums, double base) {
 
 /// Two Gaussians with the mean sharpness and the mean variance of the base lobes; or of log-normal
 /// deviations with these.
-static footprint_bin make_bin(const bin_sums *sums, bool log_normal, double light) {
+static footprint_bin make_bin(const shape_sums *sums, double mass, bool log_normal, double light) {
     const double weight = sums->places.weight, sharpness = sums->sharpness / weight;
     const double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
     const double square = 0.25 + 0.25 * sqrt(1 + 8 * ratio);
     const double median = (log_normal ? cbrt(ratio) : square) / (sharpness * sharpness);
     const double varies = log_normal ? sqrt(fmin(log(ratio) / 3, 0.64)) : acosh(sqrt(square));
     const double factor = exp(2 * varies);
-    footprint_bin bin = {.terms = {bell_of_bin(sums, median / factor + light),
-                                   bell_of_bin(sums, median * factor + light)}};
-    for (int j = 0; j < 3; j++)
-        bin.colour[j] = sums->colour[j] / weight;
-    return bin;
+    return (footprint_bin){.terms = {bell_of_bin(&sums->places, mass, median / factor + light),
+                                     bell_of_bin(&sums->places, mass, median * factor + light)}};
+}
+
+static double evaluate_bin(const footprint_bin *bin, const double place[2]) {
+    return evaluate(&bin->terms[0], place) + evaluate(&bin->terms[1], place);
+}
+
+static void add_to_shape(shape_sums *sums, const plane_sample *lobe, double counts) {
+    passes_plane_sums_add(&sums->places, lobe, counts);
+    sums->sharpness += counts / sqrt(lobe->variance);
+}
+
+/// As shaders/filters/moments/mirrored.glsl.
+static double mirrored_by(const footprint *patch, const plane_sample *lobe) {
+    const double *f0 = lobe->specular;
+    return patch->microfacet ? 0.02 + 0.98 * (0.2126 * f0[0] + 0.7152 * f0[1] + 0.0722 * f0[2]) : 1;
 }
 
 /// How many there are.
@@ -211,33 +229,35 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
         passes_mixture_share(m, lobe, members);
         for (uint32_t k = 0; k < m->count; k++) {
             double mass = lobe->weight * lobe->mass * members[k];
-            passes_plane_sums_add(&sums[k].places, lobe, mass);
-            sums[k].sharpness += mass / sqrt(lobe->variance);
+            add_to_shape(&sums[k].by_mass, lobe, mass);
+            add_to_shape(&sums[k].by_mirrored, lobe, mass * mirrored_by(patch, lobe));
             for (int j = 0; j < 3; j++)
                 sums[k].colour[j] += mass * lobe->specular[j];
         }
     }
     uint32_t count = 0;
     for (uint32_t k = 0; k < m->count; k++)
-        if (sums[k].places.weight > 1e-6)
+        if (sums[k].by_mass.places.weight > 1e-6)
             sums[count++] = sums[k];
     return count;
 }
 
 static footprint_error compare_light(const footprint *patch, const footprint_light *light,
                                      const bin_sums *sums, uint32_t count) {
-    footprint_bin bins[MOMENT_MAXIMUM_BINS];
+    footprint_bin bins[MOMENT_MAXIMUM_BINS], coloured_bins[MOMENT_MAXIMUM_BINS];
     footprint_error error = {0};
-    for (uint32_t k = 0; k < count; k++)
-        bins[k] = make_bin(&sums[k], patch->log_normal, light->variance);
+    for (uint32_t k = 0; k < count; k++) {
+        const double mass = sums[k].by_mass.places.weight;
+        bins[k] = make_bin(&sums[k].by_mass, mass, patch->log_normal, light->variance);
+        coloured_bins[k] = make_bin(&sums[k].by_mirrored, mass, patch->log_normal, light->variance);
+    }
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
         double all = 0, coloured[3] = {0};
         for (uint32_t k = 0; k < count; k++) {
-            double value = evaluate(&bins[k].terms[0], light->places[i]) +
-                           evaluate(&bins[k].terms[1], light->places[i]);
-            all += value;
+            const double value = evaluate_bin(&coloured_bins[k], light->places[i]);
+            all += evaluate_bin(&bins[k], light->places[i]);
             for (int j = 0; j < 3; j++)
-                coloured[j] += value * bins[k].colour[j];
+                coloured[j] += value * sums[k].colour[j] / sums[k].by_mass.places.weight;
         }
         const double part = part_of(light, i);
         for (int j = 0; j < 3; j++) {

@@ -23,6 +23,7 @@ typedef struct footprint {
     uint32_t count;
     plane_sample *lobes; ///< weights add up to one
     bool log_normal;     ///< what bins take the deviations of base lobes for: those of GGX
+    bool microfacet;     ///< colours are F0
     uint32_t light_count;
     /// A point and, where there are two, a broad light: under a point alone sharp lobes of many
     /// directions are spikes, which no bins match better than others.
@@ -34,8 +35,8 @@ typedef struct footprint {
 /// Whether lobes of this variance look different under the broad light.
 bool passes_footprint_is_sharp(double variance);
 
-/// Completes a footprint of which the first four are set. `microfacet`: colours are F0.
-void passes_footprint_complete(footprint *patch, bool microfacet);
+/// Completes a footprint of which the first five are set.
+void passes_footprint_complete(footprint *patch);
 
 /// Squared errors, integrated over half vectors.
 typedef struct footprint_error {

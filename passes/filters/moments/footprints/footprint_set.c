@@ -94,7 +94,6 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
                                          const lobe_survey *survey,
                                          const lobe_allocator *allocator) {
     enum { LOBES = POINTS * POINTS * LOBE_MATERIAL_MAXIMUM_LOBES };
-    const bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const uint32_t lights = count_lights(survey);
     const lobe_mask mask = passes_lobe_mask(scene, material);
     footprint_set *set = lobe_allocate(
@@ -108,6 +107,7 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
         footprint *one = &set->all[i];
         one->lobes = set->lobes + (size_t)i * LOBES;
         one->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
+        one->microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
         one->light_count = lights;
         if (i < FOOTPRINT_SQUARES)
             read_square(scene->scene, material, &mask, i, one);
@@ -115,7 +115,7 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
             one->lobes = whole;
             one->count = survey->count;
         }
-        passes_footprint_complete(one, microfacet);
+        passes_footprint_complete(one);
     }
     for (uint32_t i = 0; i < FOOTPRINT_LIGHTS; i++)
         find_units(set, i, set->units[i]);

@@ -1,0 +1,22 @@
+#ifndef MIRRORED_GLSL
+#define MIRRORED_GLSL
+
+// How much a lobe counts in the moments of a bin with colours, over its mass: where dark texels are
+// rough and bright ones smooth, the bin's light is that of the bright ones. Whoever includes this
+// declares MODEL.
+
+#include "interface/material.h"
+
+// So much in any case, to have moments where all is black.
+const float LEAST_MIRRORED = 0.02;
+
+// The luminance of F0, at most 1 with colours in units that hold them. `colour`: of metal in this
+// unit, and how much is not metal; of one lobe, or the mean of several.
+float mirrored_by(vec4 colour, float unit) {
+    if (MODEL != MODEL_MICROFACET)
+        return 1.0;
+    float luminance = unit * dot(colour.rgb, vec3(0.2126, 0.7152, 0.0722)) + 0.04 * colour.a;
+    return mix(luminance / max(unit, 1.0), 1.0, LEAST_MIRRORED);
+}
+
+#endif
