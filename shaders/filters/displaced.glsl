@@ -775,8 +775,8 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
     if (FACETS)
         reflected.sent_on = light_sent_on(
             reflected.indirect, environment.intensity * round_radiance(surface, DISTRIBUTION_VMF,
-                                                               drawn.sent_on.axis,
-                                                               drawn.sent_on.concentration));
+                                                               drawn.sent_on.mean_axis,
+                                                               drawn.sent_on.mean_concentration));
     if (NEAR && drawn.near.share > 0.0)
         lobes = mix(lobes, mirrored_by_near_facet(surface), drawn.near.share);
     vec3 diffuse = diffuse_radiance(base, let_through(surface, white), surface, reflected);
