@@ -9,8 +9,8 @@
 //
 // With p the lobe's place in the plane, g = 1 / sqrt(v) its sharpness, v its variance and m its
 // mass, all in units in which they are within [-1, 1] (moment_bin), bin b has
-// [b layers + 0]  sums of m, l p_x, l p_y, l g; l is m or, where bins have colours, what is
-// mirrored
+// [b layers + 0]  sums of m, l p_x, l p_y, l g; l is m or, of `moments` where bins have colours,
+// what is mirrored
 //                 of it (filters/moments/mirrored.glsl)
 // [b layers + 1]  sums of l p_x p_x, l p_y p_y, l p_x p_y, l v
 // [b layers + 2]  where bins have colours: sum of m times the specular colour. Of microfacets the
@@ -27,6 +27,8 @@
 // bool: texels of colour maps may exceed one
 #define SPECIALISE_BRIGHT_TEXELS (SPECIALISE_FILTER + 24)
 #define SPECIALISE_SINGLE_TEXELS (SPECIALISE_FILTER + 29) // uint, SINGLE_TEXELS_...
+// bool: in bins with colours, lobes count by what they mirror (of `moments`)
+#define SPECIALISE_MIRRORED_BINS (SPECIALISE_FILTER + 30)
 
 // Which texels' bins are evaluated one by one, not blended with those of texels around.
 #define SINGLE_TEXELS_NEVER  0

@@ -276,6 +276,7 @@ static moment_map build_moments(const filter_context *context, uint32_t material
     const moment_partition *partition = &prepared->partition;
     passes_bins_specialise(&context->scene->materials[material], partition->bins,
                            partition->own_colours, appearance);
+    passes_appearance_specialise(appearance, SPECIALISE_MIRRORED_BINS, partition->own_colours);
     return passes_moment_binning(context, material, partition, bins_of(context, material, prepared),
                                  passes_bin_format(context));
 }

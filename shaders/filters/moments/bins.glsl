@@ -8,6 +8,7 @@
 
 layout(constant_id = SPECIALISE_BINS) const uint BINS = 1;
 layout(constant_id = SPECIALISE_BIN_COLOUR) const bool BIN_COLOUR = false;
+layout(constant_id = SPECIALISE_MIRRORED_BINS) const bool MIRRORED_BINS = false;
 layout(constant_id = SPECIALISE_BIN_WIDTHS) const bool BIN_WIDTHS = true;
 
 #include "filters/moments/plane_bin.glsl"
@@ -46,7 +47,8 @@ plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uin
     plane_bin bin;
     if (BIN_COLOUR) {
         vec4 colour = per_mass * moment_layer(texels, layers * index + 2u);
-        scale /= mirrored_by(colour, colour_unit());
+        if (MIRRORED_BINS)
+            scale /= mirrored_by(colour, colour_unit());
         bin.colour = colour_of_bin(surface, vec4(colour_unit() * colour.rgb, colour.a));
         bin.dielectric = colour.a;
     }

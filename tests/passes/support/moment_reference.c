@@ -18,6 +18,7 @@ reference_moment_bins moment_bins_of(const moment_partition *partition, double c
         .kind = partition->kind,
         .bins = partition->bins,
         .colour = partition->own_colours,
+        .mirrored = partition->own_colours,
         .mass_scale = (double)partition->constants.largest[0],
         .colour_scale = colour_scale,
         .constants = partition->constants,
@@ -149,7 +150,7 @@ static bin read_bin(const lobe_material *material, const reference_moment_bins *
     const struct moment_bin *range = &partition->constants.bins[i];
     bin result = {.mass = place[0] * partition->mass_scale, .dielectric = 1};
     double square = (double)range->range[2] * (double)range->range[2], counts = place[0];
-    if (partition->colour) {
+    if (partition->mirrored) {
         const double colour[4] = {partition->colour_scale * place[8] / place[0],
                                   partition->colour_scale * place[9] / place[0],
                                   partition->colour_scale * place[10] / place[0],

@@ -81,7 +81,7 @@ void reference_add_plane_lobe(const reference_moment_bins *partition,
         const double spread[4] = {p[0] * p[0], p[1] * p[1], p[0] * p[1],
                                   lobe->variance / (double)bin->shape[3]};
         uint32_t layer = (partition->colour ? 3 : 2) * i;
-        const double counts = mass * (partition->colour ? lobe->mirrored : 1);
+        const double counts = mass * (partition->mirrored ? lobe->mirrored : 1);
         for (int j = 0; j < 4; j++) {
             reference_texel(layers, x, y, layer)[j] += (j == 0 ? mass : counts) * place[j];
             reference_texel(layers, x, y, layer + 1)[j] += counts * spread[j];
