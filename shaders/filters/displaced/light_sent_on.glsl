@@ -1,12 +1,12 @@
 #ifndef LIGHT_SENT_ON_GLSL
 #define LIGHT_SENT_ON_GLSL
 
-// Where light comes from that facets of a relief mirror to each other before it reaches the viewer.
-// Smooth facets of gentle reliefs turn it by little, so that it comes from about where a plane would
-// mirror it from, and steep or rough ones from everywhere: a lobe of von Mises and Fisher. Light
-// and viewer may change places, so that its density also falls towards the horizon with the cosine,
-// and once more with what the relief sends on, which is little of low light: that only reaches
-// tops. With z the height of a direction, it is z^2 times the lobe.
+// Where light comes from that facets of a relief mirror to each other before it reaches the
+// viewer. Smooth facets of gentle reliefs turn it by little, so that it comes from about where a
+// plane would mirror it from, and steep or rough ones from everywhere: a lobe of von Mises and
+// Fisher. Light and viewer may change places, so that its density also falls towards the horizon
+// with the cosine, and once more with what the relief sends on, which is little of low light: that
+// only reaches tops. With z the height of a direction, it is z^2 times the lobe.
 
 #include "lib/lobe/direction_lobe.glsl"
 #include "lib/lobe/von_mises_fisher.glsl"
