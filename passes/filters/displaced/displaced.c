@@ -169,9 +169,9 @@ static const char *ignores(const lobe_scene *scene, const device_material *mater
         return NULL;
     const bool flat_colours = !passes_lies_on_relief(material, MAP_BASE_COLOUR);
     if (material->model == LOBE_MATERIAL_MICROFACET)
-        return flat_colours ? "what facets mirror is lost where it meets others; colours do not "
-                              "vary with heights, whose texture coordinates are other ones"
-                            : "what facets mirror is lost where it meets others";
+        return flat_colours
+                   ? "colours do not vary with heights, whose texture coordinates are other ones"
+                   : NULL;
     return flat_colours
                ? "lobes are those of its normal map, and neither masked nor shadowed by its "
                  "heights; colours do not vary with heights, whose texture coordinates are other "
