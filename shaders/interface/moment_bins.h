@@ -9,9 +9,8 @@
 //
 // With p the lobe's place in the plane, g = 1 / sqrt(v) its sharpness, v its variance and m its
 // mass, all in units in which they are within [-1, 1] (moment_bin), bin b has
-// [b layers + 0]  sums of m, l p_x, l p_y, l g; l is m or, of `moments` where bins have colours,
-// what is mirrored
-//                 of it (filters/moments/mirrored.glsl)
+// [b layers + 0]  sums of m, l p_x, l p_y, l g. Of `moments`, where bins have colours, l is m times
+//                 what the lobe mirrors (filters/moments/mirrored.glsl); otherwise l is m
 // [b layers + 1]  sums of l p_x p_x, l p_y p_y, l p_x p_y, l v
 // [b layers + 2]  where bins have colours: sum of m times the specular colour. Of microfacets the
 //                 colour that the base colour gives to metal, and in alpha m times what is not
@@ -19,6 +18,9 @@
 // [last]          where bins have colours: mean of the diffuse colour; of microfacets times 1 - F0.
 //                 There, and under a mask, in alpha how much the texels count (maps/base_maps.glsl)
 #define MOMENT_MAXIMUM_BINS 6
+
+// So much of its mass a lobe counts in any case, to have moments where all is black.
+#define MOMENT_LEAST_MIRRORED 0.02
 
 #define SPECIALISE_BINS       (SPECIALISE_FILTER + 20) // uint, [1, MOMENT_MAXIMUM_BINS]
 #define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 21) // uint, PARTITION_...

@@ -6,9 +6,7 @@
 // declares MODEL.
 
 #include "interface/material.h"
-
-// So much in any case, to have moments where all is black.
-const float LEAST_MIRRORED = 0.02;
+#include "interface/moment_bins.h"
 
 // The luminance of F0, at most 1 with colours in units that hold them. `colour`: of metal in this
 // unit, and how much is not metal; of one lobe, or the mean of several.
@@ -16,7 +14,7 @@ float mirrored_by(vec4 colour, float unit) {
     if (MODEL != MODEL_MICROFACET)
         return 1.0;
     float luminance = unit * dot(colour.rgb, vec3(0.2126, 0.7152, 0.0722)) + 0.04 * colour.a;
-    return mix(luminance / max(unit, 1.0), 1.0, LEAST_MIRRORED);
+    return mix(luminance / max(unit, 1.0), 1.0, MOMENT_LEAST_MIRRORED);
 }
 
 #endif

@@ -133,6 +133,20 @@ static void average_colours(footprint *patch) {
     patch->diffuse_error = all > 0 ? error / all : 0;
 }
 
+/// As shaders/filters/moments/mirrored.glsl.
+static double mirrored_by(const footprint *patch, const plane_sample *lobe) {
+    const double *f0 = lobe->specular;
+    const double luminance = 0.2126 * f0[0] + 0.7152 * f0[1] + 0.0722 * f0[2];
+    return patch->microfacet ? luminance + MOMENT_LEAST_MIRRORED * (1 - luminance) : 1;
+}
+
+static bool mirrors_alike(const footprint *patch) {
+    for (uint32_t k = 1; k < patch->count; k++)
+        if (mirrored_by(patch, &patch->lobes[k]) != mirrored_by(patch, &patch->lobes[0]))
+            return false;
+    return true;
+}
+
 bool passes_footprint_is_sharp(double variance) {
     return variance < broad_light;
 }
@@ -149,6 +163,7 @@ void passes_footprint_complete(footprint *patch) {
         find_truth(patch, &patch->lights[i]);
     }
     average_colours(patch);
+    patch->mirrors_alike = mirrors_alike(patch);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -171,6 +186,7 @@ typedef struct bin_sums {
 /// the tails of GGX are left out.
 typedef struct footprint_bin {
     bell terms[2];
+    double colour[3];
 } footprint_bin;
 
 static bell bell_of_bin(const plane_sums *places, double mass, double base) {
@@ -194,7 +210,8 @@ static bell bell_of_bin(const plane_sums *places, double mass, double base) {
 
 /// Two Gaussians with the mean sharpness and the mean variance of the base lobes; or of log-normal
 /// deviations with these.
-static footprint_bin make_bin(const shape_sums *sums, double mass, bool log_normal, double light) {
+static footprint_bin make_bin(const shape_sums *sums, const double colour[3], double mass,
+                              bool log_normal, double light) {
     const double weight = sums->places.weight, sharpness = sums->sharpness / weight;
     const double ratio = fmax(sums->places.variance / weight * sharpness * sharpness, 1);
     const double square = 0.25 + 0.25 * sqrt(1 + 8 * ratio);
@@ -202,7 +219,8 @@ static footprint_bin make_bin(const shape_sums *sums, double mass, bool log_norm
     const double varies = log_normal ? sqrt(fmin(log(ratio) / 3, 0.64)) : acosh(sqrt(square));
     const double factor = exp(2 * varies);
     return (footprint_bin){.terms = {bell_of_bin(&sums->places, mass, median / factor + light),
-                                     bell_of_bin(&sums->places, mass, median * factor + light)}};
+                                     bell_of_bin(&sums->places, mass, median * factor + light)},
+                           .colour = {colour[0] / mass, colour[1] / mass, colour[2] / mass}};
 }
 
 static double evaluate_bin(const footprint_bin *bin, const double place[2]) {
@@ -212,12 +230,6 @@ static double evaluate_bin(const footprint_bin *bin, const double place[2]) {
 static void add_to_shape(shape_sums *sums, const plane_sample *lobe, double counts) {
     passes_plane_sums_add(&sums->places, lobe, counts);
     sums->sharpness += counts / sqrt(lobe->variance);
-}
-
-/// As shaders/filters/moments/mirrored.glsl.
-static double mirrored_by(const footprint *patch, const plane_sample *lobe) {
-    const double *f0 = lobe->specular;
-    return patch->microfacet ? 0.02 + 0.98 * (0.2126 * f0[0] + 0.7152 * f0[1] + 0.0722 * f0[2]) : 1;
 }
 
 /// How many there are.
@@ -230,7 +242,8 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
         for (uint32_t k = 0; k < m->count; k++) {
             double mass = lobe->weight * lobe->mass * members[k];
             add_to_shape(&sums[k].by_mass, lobe, mass);
-            add_to_shape(&sums[k].by_mirrored, lobe, mass * mirrored_by(patch, lobe));
+            if (!patch->mirrors_alike)
+                add_to_shape(&sums[k].by_mirrored, lobe, mass * mirrored_by(patch, lobe));
             for (int j = 0; j < 3; j++)
                 sums[k].colour[j] += mass * lobe->specular[j];
         }
@@ -244,20 +257,24 @@ static uint32_t collect(const footprint *patch, const plane_mixture *m,
 
 static footprint_error compare_light(const footprint *patch, const footprint_light *light,
                                      const bin_sums *sums, uint32_t count) {
-    footprint_bin bins[MOMENT_MAXIMUM_BINS], coloured_bins[MOMENT_MAXIMUM_BINS];
+    footprint_bin bins[MOMENT_MAXIMUM_BINS], mirrored_bins[MOMENT_MAXIMUM_BINS];
     footprint_error error = {0};
     for (uint32_t k = 0; k < count; k++) {
-        const double mass = sums[k].by_mass.places.weight;
-        bins[k] = make_bin(&sums[k].by_mass, mass, patch->log_normal, light->variance);
-        coloured_bins[k] = make_bin(&sums[k].by_mirrored, mass, patch->log_normal, light->variance);
+        const double *colour = sums[k].colour, mass = sums[k].by_mass.places.weight;
+        bins[k] = make_bin(&sums[k].by_mass, colour, mass, patch->log_normal, light->variance);
+        if (!patch->mirrors_alike)
+            mirrored_bins[k] =
+                make_bin(&sums[k].by_mirrored, colour, mass, patch->log_normal, light->variance);
     }
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
         double all = 0, coloured[3] = {0};
         for (uint32_t k = 0; k < count; k++) {
-            const double value = evaluate_bin(&coloured_bins[k], light->places[i]);
-            all += evaluate_bin(&bins[k], light->places[i]);
+            const double plain = evaluate_bin(&bins[k], light->places[i]);
+            const double value =
+                patch->mirrors_alike ? plain : evaluate_bin(&mirrored_bins[k], light->places[i]);
+            all += plain;
             for (int j = 0; j < 3; j++)
-                coloured[j] += value * sums[k].colour[j] / sums[k].by_mass.places.weight;
+                coloured[j] += value * bins[k].colour[j];
         }
         const double part = part_of(light, i);
         for (int j = 0; j < 3; j++) {

@@ -30,6 +30,7 @@ typedef struct footprint {
     footprint_light lights[FOOTPRINT_LIGHTS];
     double colour[3];     ///< mean specular colour, as averaged maps have it
     double diffuse_error; ///< of the diffuse colour of averaged maps, relative to all colours
+    bool mirrors_alike;   ///< all lobes mirror as much of their mass
 } footprint;
 
 /// Whether lobes of this variance look different under the broad light.
