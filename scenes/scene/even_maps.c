@@ -111,12 +111,12 @@ static lobe_result shrink(lobe_image *image, const lobe_host *host) {
 lobe_result scenes_fold_even_maps(lobe_scene *scene, const lobe_host *host) {
     lobe_result result = LOBE_OK;
     size_t count = 0;
-    for (size_t i = 0; i < scene->material_count; i++)
-        if (scene->materials[i].model == LOBE_MATERIAL_MICROFACET && !is_posed(scene, i))
-            count += fold_maps(scene, &scene->materials[i]);
     for (size_t i = 0; result == LOBE_OK && i < scene->image_count; i++)
         if (is_even(&scene->images[i]) && !has_heights(scene, i))
             result = shrink(&scene->images[i].image, host);
+    for (size_t i = 0; i < scene->material_count; i++)
+        if (scene->materials[i].model == LOBE_MATERIAL_MICROFACET && !is_posed(scene, i))
+            count += fold_maps(scene, &scene->materials[i]);
     if (result == LOBE_OK && count > 0)
         lobe_host_log(host, LOBE_LOG_NOTICE,
                       "%s: %zu map%s the same value in all texels: taken as the material's numbers",

@@ -72,6 +72,11 @@ static void maps_use_their_own_set_of_coordinates(void **state) {
     const lobe_material *material = &scene->materials[0];
     assert_true(mesh->has_texture_coordinates[0] && mesh->has_texture_coordinates[1]);
     assert_int_equal(material->occlusion_map.texture_coordinates, 1);
+    // All of its texels are (47, 164, 48); the same image is the map of roughness and metal.
+    assert_int_equal(material->occlusion_map.image, 0);
+    assert_int_equal(material->metallic_roughness_map.image, -1);
+    assert_float_equal(material->roughness, 164 / 255.0, 1e-6);
+    assert_float_equal(material->metallic, 48 / 255.0, 1e-6);
     lobe_scene_destroy(&scene);
 }
 
