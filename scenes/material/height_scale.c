@@ -4,33 +4,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "scenes/material/image_channel.h"
+
 static const double least_correlation = 0.2;
 // Smallest z of a normal that counts: steeper ones would outweigh all others.
 static const double least_cosine = 0.1;
 
-static double channel(const lobe_image *image, uint32_t column, uint32_t row, int index) {
-    size_t offset = ((size_t)row * image->width + column) * 4 + (size_t)index;
-    if (image->format == LOBE_FORMAT_RGBA16_UNORM)
-        return ((const uint16_t *)image->texels)[offset] / 65535.0;
-    return ((const uint8_t *)image->texels)[offset] / 255.0;
-}
-
 // Slope per width of the map, towards higher columns and rows; the map repeats.
 static void height_slope(const lobe_image *image, uint32_t column, uint32_t row, double slope[2]) {
     uint32_t w = image->width, h = image->height;
-    double across =
-        channel(image, (column + 1) % w, row, 0) - channel(image, (column + w - 1) % w, row, 0);
-    double down =
-        channel(image, column, (row + 1) % h, 0) - channel(image, column, (row + h - 1) % h, 0);
+    double across = scenes_image_channel_value(image, (column + 1) % w, row, 0) -
+                    scenes_image_channel_value(image, (column + w - 1) % w, row, 0);
+    double down = scenes_image_channel_value(image, column, (row + 1) % h, 0) -
+                  scenes_image_channel_value(image, column, (row + h - 1) % h, 0);
     slope[0] = across / 2 * w;
     slope[1] = down / 2 * w;
 }
 
 // A height field's normal is (-dh/dx, -dh/dy, 1); rows run against y.
 static void normal_slope(const lobe_image *image, uint32_t column, uint32_t row, double slope[2]) {
-    double z = fmax(2 * channel(image, column, row, 2) - 1, least_cosine);
-    slope[0] = -(2 * channel(image, column, row, 0) - 1) / z;
-    slope[1] = (2 * channel(image, column, row, 1) - 1) / z;
+    double z = fmax(2 * scenes_image_channel_value(image, column, row, 2) - 1, least_cosine);
+    slope[0] = -(2 * scenes_image_channel_value(image, column, row, 0) - 1) / z;
+    slope[1] = (2 * scenes_image_channel_value(image, column, row, 1) - 1) / z;
 }
 
 bool scenes_height_scale_find(const lobe_image *heights, const lobe_image *normals, float *scale) {

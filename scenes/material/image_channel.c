@@ -4,11 +4,16 @@
 
 #include "scenes/format/image_file.h"
 
+double scenes_image_channel_value(const lobe_image *image, uint32_t column, uint32_t row,
+                                  uint32_t channel) {
+    const size_t index = ((size_t)row * image->width + column) * 4 + channel;
+    if (image->format == LOBE_FORMAT_RGBA16_UNORM)
+        return ((const uint16_t *)image->texels)[index] / 65535.0;
+    return ((const uint8_t *)image->texels)[index] / 255.0;
+}
+
 static double read_texel(const image_channel *from, uint32_t column, uint32_t row) {
-    size_t index = ((size_t)row * from->image->width + column) * 4 + from->channel;
-    if (from->image->format == LOBE_FORMAT_RGBA16_UNORM)
-        return ((const uint16_t *)from->image->texels)[index] / 65535.0;
-    return ((const uint8_t *)from->image->texels)[index] / 255.0;
+    return scenes_image_channel_value(from->image, column, row, from->channel);
 }
 
 // The two texels of a line of `extent` on either side of a position in texels, in [-0.5, extent -

@@ -7,7 +7,11 @@
 #include <lobe/image.h>
 #include <lobe/result.h>
 
-/// Single channels of RGBA8_UNORM and RGBA16_UNORM images.
+/// Single channels of RGBA8_UNORM, RGBA8_SRGB (as encoded) and RGBA16_UNORM images.
+
+/// [0, 1]; `channel`: [0, 3].
+double scenes_image_channel_value(const lobe_image *image, uint32_t column, uint32_t row,
+                                  uint32_t channel);
 
 /// The source of a channel of a packed image.
 typedef struct image_channel {

@@ -5,6 +5,8 @@
 
 #include <lobe/colour.h>
 
+#include "scenes/material/image_channel.h"
+
 // Bytes have no value for a slope of zero: 127 and 128 are as near as they come.
 #define FLAT_TILT (1.001 / 255)
 
@@ -19,21 +21,15 @@ static bool is_even(const lobe_scene_image *image) {
 
 /// Of the first texel; colours linear. False: of a format in which no file's images are.
 static bool get_value(const lobe_image *image, double value[4]) {
-    for (int i = 0; i < 4; i++) {
-        switch (image->format) {
-        case LOBE_FORMAT_RGBA8_UNORM:
-        case LOBE_FORMAT_RGBA8_SRGB:
-            value[i] = ((const uint8_t *)image->texels)[i] / 255.0;
-            break;
-        case LOBE_FORMAT_RGBA16_UNORM:
-            value[i] = ((const uint16_t *)image->texels)[i] / 65535.0;
-            break;
-        default:
-            return false;
-        }
+    const bool encoded = image->format == LOBE_FORMAT_RGBA8_SRGB;
+    if (!encoded && image->format != LOBE_FORMAT_RGBA8_UNORM &&
+        image->format != LOBE_FORMAT_RGBA16_UNORM)
+        return false;
+    for (uint32_t i = 0; i < 4; i++) {
+        value[i] = scenes_image_channel_value(image, 0, 0, i);
+        if (encoded && i < 3)
+            value[i] = (double)lobe_srgb_decode((float)value[i]);
     }
-    for (int i = 0; i < 3 && image->format == LOBE_FORMAT_RGBA8_SRGB; i++)
-        value[i] = (double)lobe_srgb_decode((float)value[i]);
     return true;
 }
 
