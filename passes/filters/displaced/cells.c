@@ -121,6 +121,9 @@ static lobe_pass *add_normals(const cells_build *build) {
     lobe_pass *pass =
         lobe_graph_add_pass(source->context->graph, LOBE_PASS_COMPUTE, "facet_normals");
     passes_relief_read(source->relief, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = source->seen->basis});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "transfer_words", .resource = source->seen->words});
     passes_reduced_map_write(build->target->facets, pass, "facet_map", 0);
     dispatch(build, pass, "filters/displaced/facet_normals.comp", 0);
     return pass;

@@ -36,6 +36,15 @@ static uint32_t basis_cells(uint32_t quads) {
     return cells < TRANSFER_BASIS_MAXIMUM ? cells : TRANSFER_BASIS_MAXIMUM;
 }
 
+static lobe_resource add_groups(const facets_request *request, lobe_resource basis) {
+    lobe_pass *pass = lobe_graph_add_pass(request->graph, LOBE_PASS_COMPUTE, "facet_groups");
+    passes_relief_read(request->relief, pass);
+    basis = lobe_pass_modify(pass, &(lobe_binding){.name = "basis_block", .resource = basis});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "filters/displaced/facet_groups.comp", .threads = {1}});
+    return basis;
+}
+
 static lobe_resource add_basis(const facets_request *request) {
     const uint32_t across = basis_cells(request->relief->constants.width),
                    down = basis_cells(request->relief->constants.height), count = across * down;
@@ -63,7 +72,7 @@ static lobe_resource add_basis(const facets_request *request) {
                                               .threads = {TRANSFER_BASIS_TERMS},
                                               .constants = &count,
                                               .constants_size = sizeof count});
-    return basis;
+    return add_groups(request, basis);
 }
 
 /// Threads of a pass that takes long are spread over several, so that each takes less than a second

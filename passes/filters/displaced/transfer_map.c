@@ -214,8 +214,6 @@ static void add_closure(const transfer_build *build, transfer_map *transfer) {
     lobe_pass_read(pass, &(lobe_binding){.name = "transfer_map",
                                          .resource = map->resource,
                                          .range = {map->levels - 1, 1, 0, map->layers}});
-    lobe_pass_read(
-        pass, &(lobe_binding){.name = "height_extent_block", .resource = build->relief.extent});
     lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = build->seen.basis});
     transfer->closure = lobe_pass_write(
         pass, &(lobe_binding){.name = "closure_block", .resource = transfer->closure});

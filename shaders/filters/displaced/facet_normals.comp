@@ -5,25 +5,43 @@
 // facets under each texel, of half the size of the relief; all within a window. A thread a texel.
 
 #include "filters/displaced/facets.glsl"
+#include "filters/displaced/facet_words.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "lib/displacement/transfer_basis.glsl"
 #include "lib/lobe/lambert_plane.glsl"
 #include "lib/map/box_reduction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(set = 0, binding = 5, std430) readonly buffer basis_block {
+    transfer_basis_constants basis;
+};
 layout(set = 0, binding = 8) uniform writeonly image2DArray facet_map;
 
+vec4 groups[2 * FACET_BINS];
 vec4 layers[2 * FACET_BINS];
 
+float expected_hidden(vec3 normal) {
+    float sum = 0.0;
+    for (uint i = 0u; i < FACET_DIRECTIONS; ++i)
+        sum += basis.hidden[i / 4u][i % 4u] * max(dot(normal, facet_direction(i)), 0.0);
+    return sum;
+}
+
 void add_facet(uint index, float weight) {
-    vec3 normal = facet_of(index).normal;
-    float area = weight / normal.z, radius = height_extent.z;
     // The relief's y runs against the tangent frame's.
-    vec2 place = plane_from_direction(vec3(normal.x, -normal.y, normal.z));
-    uint bin = facet_bin_of(place, radius);
-    vec2 d = place - facet_bin_centre(bin, radius);
-    layers[2u * bin] += area * vec4(1.0, d, 0.0);
-    layers[2u * bin + 1u] += area * vec4(d * d, d.x * d.y, 0.0);
+    vec3 normal = vec3(1.0, -1.0, 1.0) * facet_of(index).normal;
+    float area = weight / normal.z, parts[FACET_BINS];
+    vec2 place = plane_from_direction(normal);
+    // The first polynomial is the cosine to the carrier.
+    float hidden = product_of_cosines(normal.z) - TRANSFER_COSINE * facet_coefficient(index, 0u);
+    float expected = expected_hidden(normal);
+    facet_parts(place, groups, parts);
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        vec2 d = place - groups[2u * k].xy;
+        layers[2u * k] += parts[k] * area * vec4(1.0, d, max(hidden, 0.0));
+        layers[2u * k + 1u] += parts[k] * area * vec4(d * d, d.x * d.y, expected);
+    }
 }
 
 void main() {
@@ -33,6 +51,7 @@ void main() {
         return;
     for (uint i = 0u; i < 2u * FACET_BINS; ++i)
         layers[i] = vec4(0.0);
+    groups = basis.groups;
     ivec2 size = relief_size();
     vec3 columns = box_weights(size.x, int(texel.x)), rows = box_weights(size.y, int(texel.y));
     for (int y = 0; y < box_taps(size.y); ++y) {

@@ -19,9 +19,6 @@ layout(set = 0, binding = 1, std430) writeonly buffer closure_block {
 layout(set = 0, binding = 2, std430) readonly buffer basis_block {
     transfer_basis_constants basis;
 };
-layout(set = 0, binding = 35, std430) readonly buffer height_extent_block {
-    vec4 height_extent;
-};
 
 const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
 
@@ -71,6 +68,5 @@ void main() {
     closure.lost = lost;
     closure.persistence = !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
-    closure.radius = height_extent.z;
     closure.basis = basis;
 }

@@ -85,12 +85,25 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 #define TRANSFER_BASIS_CELL    16
 #define TRANSFER_BASIS_POINTS  8
 #define TRANSFER_BASIS_MAXIMUM 12
+//
+// Bins of facets' normals, made for each map by facet_groups: a mixture of Gaussians of their
+// places in the Lambert plane of the tangent frame.
+#define FACET_BINS       5
+#define FACET_DIRECTIONS 48
 struct transfer_basis_constants {
     float4 functions[4 * TRANSFER_MAXIMUM_ORDER]; // 16 factors each
     float4 integrals[3];                          // over the hemisphere; the last is 0, but for x
+    // Of each bin, its mean and the logarithm of its part of the facets' area over the root of its
+    // covariance's determinant; then its inverse covariance, (xx, yy, xy).
+    float4 groups[2 * FACET_BINS];
+    // What the relief hides of the cosine, from each of facet_direction(), times the cosine to the
+    // carrier and the direction's part of the hemisphere.
+    float4 hidden[FACET_DIRECTIONS / 4];
 };
-INTERFACE_SIZE(transfer_basis_constants, 624)
+INTERFACE_SIZE(transfer_basis_constants, 976)
 INTERFACE_OFFSET(transfer_basis_constants, integrals, 576)
+INTERFACE_OFFSET(transfer_basis_constants, groups, 624)
+INTERFACE_OFFSET(transfer_basis_constants, hidden, 784)
 #ifndef VULKAN
 typedef struct transfer_basis_constants transfer_basis_constants;
 #endif
@@ -104,22 +117,20 @@ struct transfer_closure_constants {
     float lost;        // the integral of what lacks
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
-    float radius;      // of the facets' normals, see below
+    float padding;
 };
-INTERFACE_SIZE(transfer_closure_constants, 768)
-INTERFACE_OFFSET(transfer_closure_constants, lacking, 624)
-INTERFACE_OFFSET(transfer_closure_constants, visible, 688)
-INTERFACE_OFFSET(transfer_closure_constants, lost, 752)
-INTERFACE_OFFSET(transfer_closure_constants, persistence, 756)
-INTERFACE_OFFSET(transfer_closure_constants, direct, 760)
-INTERFACE_OFFSET(transfer_closure_constants, radius, 764)
+INTERFACE_SIZE(transfer_closure_constants, 1120)
+INTERFACE_OFFSET(transfer_closure_constants, lacking, 976)
+INTERFACE_OFFSET(transfer_closure_constants, visible, 1040)
+INTERFACE_OFFSET(transfer_closure_constants, lost, 1104)
+INTERFACE_OFFSET(transfer_closure_constants, persistence, 1108)
+INTERFACE_OFFSET(transfer_closure_constants, direct, 1112)
 
-// The facets' normals as places in the Lambert plane of the tangent frame, in bins
-// (lib/displacement/facet_bins.glsl): the first of those nearer to the pole than the others, then
-// one for each half axis. Of each bin, two layers of means over a cell: a and a d_x, a d_y; then a
-// d_x^2, a d_y^2, a d_x d_y, with d the place less the bin's centre. `radius` is the mean distance
-// of the map's places from the pole.
-#define FACET_BINS 5
+// The map of facets' normals: of each bin, two layers of means over a cell: p a and p a d_x, p a
+// d_y, p a h; then p a d_x^2, p a d_y^2, p a d_x d_y, p a e, with d the place less the bin's mean,
+// and p the part that the bin has of a facet (lib/displacement/facet_bins.glsl). With the cosines
+// of a direction to the facet and to the carrier, h is the integral of their product over what the
+// relief hides from the facet, and e what it would be if the relief hid as much of it as of others.
 
 // Push constants of the passes between.
 //
