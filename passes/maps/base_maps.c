@@ -95,7 +95,7 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     map.groups = kind->groups;
     map.groups_offset = kind->groups_offset;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, kind->pass);
-    passes_base_maps_read(context, material, false, pass);
+    passes_base_maps_read(context, material, kind->reads_factors, pass);
     passes_base_colour_read(context, material, kind->reads_base_colour, pass);
     passes_reduced_map_write(&map, pass, kind->binding, 0);
     specialisation_list list = {.graph = context->graph};

@@ -48,6 +48,7 @@ typedef struct lobe_map_kind {
     uint32_t layers;         ///< of the map
     uint32_t mask_layers;    ///< more of them, where lobes are masked
     bool reads_base_colour;  ///< its shader does, not only as a mask
+    bool reads_factors;      ///< its shader reads those of colour and metal
     lobe_resource groups; ///< as in reduced_map, like the next; its first number is 0 without a map
     size_t groups_offset;
     /// Binds and specialises what the shader reads beside the base maps. NULL: nothing.

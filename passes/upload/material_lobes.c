@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <lobe/colour.h>
+
 #include "passes/upload/material_maps.h"
 
 double passes_mean_resultant_length(double kappa) {
@@ -10,15 +12,11 @@ double passes_mean_resultant_length(double kappa) {
     return kappa < 1e-3 ? kappa / 3 : 1 / tanh(kappa) - 1 / kappa;
 }
 
-static float luminance(const float colour[3]) {
-    return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
-}
-
 float passes_material_lobe_share(const lobe_material *material, uint32_t lobe) {
     float sum = 0;
     for (uint32_t i = 0; i < material->lobe_count; i++)
-        sum += luminance(material->lobes[i].colour);
-    return sum > 0 ? luminance(material->lobes[lobe].colour) / sum
+        sum += lobe_luminance(material->lobes[i].colour);
+    return sum > 0 ? lobe_luminance(material->lobes[lobe].colour) / sum
                    : 1.0f / (float)material->lobe_count;
 }
 

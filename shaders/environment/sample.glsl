@@ -11,6 +11,7 @@
 #include "environment/environment.glsl"
 #include "shading/base_sample.glsl"
 #include "lib/light/cube_texel.glsl"
+#include "lib/light/luminance.glsl"
 
 // ---------------------------------------------------------------------------------------------
 // Random numbers
@@ -40,10 +41,6 @@ float sample_number(uvec2 pixel, uint dimension) {
 // ---------------------------------------------------------------------------------------------
 // The environment
 
-float luminance(vec3 colour) {
-    return dot(colour, vec3(0.2126, 0.7152, 0.0722));
-}
-
 int last_level() {
     return textureQueryLevels(environment_faces) - 1;
 }
@@ -56,14 +53,14 @@ vec3 face_texel(int face, ivec2 texel, int level) {
 float total_luminance() {
     float sum = 0.0;
     for (int face = 0; face < 6; ++face)
-        sum += luminance(face_texel(face, ivec2(0), last_level()));
+        sum += lobe_luminance(face_texel(face, ivec2(0), last_level()));
     return sum * (2.0 * PI / 3.0);
 }
 
 // Luminance of a texel of a level times its solid angle: the sum over its children.
 float texel_luminance(int face, ivec2 texel, int level) {
     int size = textureSize(environment_faces, level).x;
-    return luminance(face_texel(face, texel, level)) * cube_texel_solid_angle(texel, size);
+    return lobe_luminance(face_texel(face, texel, level)) * cube_texel_solid_angle(texel, size);
 }
 
 // Picks the first of two with the probability of its share, and rescales the random number for
@@ -83,7 +80,7 @@ vec3 direction_from_environment(vec2 numbers) {
     int face = 0;
     float left = numbers.x * total_luminance();
     for (int i = 0; i < 5; ++i) {
-        float sent = luminance(face_texel(face, ivec2(0), last_level())) * (2.0 * PI / 3.0);
+        float sent = lobe_luminance(face_texel(face, ivec2(0), last_level())) * (2.0 * PI / 3.0);
         if (face == i && left >= sent) {
             left -= sent;
             face = i + 1;
@@ -121,7 +118,7 @@ vec3 weighted_sample(surface_point surface, base_material base, vec3 incoming, f
         return vec3(0.0);
     vec3 radiance = texel_radiance(to_environment(surface, incoming));
     float density = material_density(base, surface.outgoing, incoming) +
-                    luminance(radiance) / max(total, 1e-30);
+                    lobe_luminance(radiance) / max(total, 1e-30);
     vec3 reflectance = evaluate_base_material(base, surface.outgoing, incoming);
     return density > 0.0 ? reflectance * radiance * (environment.intensity / density) : vec3(0.0);
 }

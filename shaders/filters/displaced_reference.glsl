@@ -197,7 +197,7 @@ drawn_light draw_light(surface_point surface, float total, inout random_numbers 
                  environment.environment_from_world[2].xyz * drawn.z;
     vec3 radiance = texel_radiance(drawn);
     return drawn_light(relief_from_tangent(world * surface.world_from_tangent), radiance,
-                       luminance(radiance) / max(total, 1e-30));
+                       lobe_luminance(radiance) / max(total, 1e-30));
 }
 
 vec3 reflected_light(path_vertex vertex, drawn_light light) {
@@ -215,7 +215,7 @@ vec3 light_behind(path walk, surface_point surface, float total) {
     if (walk.direction.z <= 0.0)
         return vec3(0.0);
     vec3 radiance = texel_radiance(to_environment(surface, tangent_from_relief(walk.direction)));
-    float density = luminance(radiance) / max(total, 1e-30);
+    float density = lobe_luminance(radiance) / max(total, 1e-30);
     return walk.throughput * radiance *
            (environment.intensity * walk.density / (walk.density + density));
 }

@@ -21,6 +21,7 @@ layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
+layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_DISPERSION;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
@@ -104,21 +105,24 @@ float uniform_complement() {
     return mean_resultant_complement(base_lobe_concentration(DISTRIBUTION, parameter));
 }
 
-// The mean of the texels' normals, and of 1 - |r| of their base lobes; `coverage`: the weights'
-// sum in a footprint, below 1 at the edge of an atlas, under a mask, and where they are weighted.
-vec4 fetch_mean(map_area area, out float coverage) {
-    coverage = 1.0;
+// The mean of the texels' normals, and of 1 - |r| of their base lobes; `coverage`: below 1 at the
+// edge of an atlas and under a mask; `weight`: the sum of the lobes' weights, which is the coverage
+// or what it mirrors.
+vec4 fetch_mean(map_area area, out float coverage, out float weight) {
+    coverage = weight = 1.0;
     vec4 one = vec4(0.0);
     if (SPACE != SPACE_TANGENT || MASKED_LOBES || WEIGHTED || MEAN_LAYER == 0u) {
         one = filtered_layer(mixture_map, area, MIXTURE_LAYER_ONE);
-        coverage = max(one.w, LEAST_WEIGHT);
+        weight = max(one.w, LEAST_WEIGHT);
+        coverage = WEIGHTED ? 1.0 : weight;
     }
+    if (KEPT_LAYER != 0u)
+        coverage = max(filtered_layer(mixture_map, area, KEPT_LAYER).x, LEAST_WEIGHT);
     if (MEAN_LAYER != 0u)
-        return filtered_layer(mixture_map, area, MEAN_LAYER) /
-               vec4(vec3(WEIGHTED ? 1.0 : coverage), coverage);
+        return filtered_layer(mixture_map, area, MEAN_LAYER) / vec4(vec3(coverage), weight);
     // There is no such layer if all base lobes are equal and along their normals.
     float complement = uniform_complement();
-    return vec4(one.xyz / max(coverage * (1.0 - complement), LEAST_WEIGHT), complement);
+    return vec4(one.xyz / max(weight * (1.0 - complement), LEAST_WEIGHT), complement);
 }
 
 // [0, 1]: how far a cluster must be refined. The measure is near 1 if one lobe is enough: |r| as in
@@ -282,13 +286,13 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
 void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.level = fetched.area.level;
     fetched.mixture_from_tangent = mixture_frame(surface);
-    float coverage;
-    vec4 mean = fetch_mean(fetched.area, coverage);
+    float coverage, weight;
+    vec4 mean = fetch_mean(fetched.area, coverage, weight);
     level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
     fetched.base_share = share_of_level_0(normals, fetched.level, coverage);
     fetched.base_complement = mean.w;
     // A mixture over some of the texels represents all of them.
-    fetched.mixture_scale = (1.0 - fetched.base_share) / coverage;
+    fetched.mixture_scale = (1.0 - fetched.base_share) / weight;
     fetched.own_scale = fetched.mixture_scale;
     // A distribution of normals is normalised to projected area one, a lobe to area one.
     if (MODEL == MODEL_MICROFACET)

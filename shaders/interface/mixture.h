@@ -9,10 +9,12 @@
 // Of microfacets whose colours may go with their lobes, each texel counts by the luminance of its
 // F0 (SPECIALISE_WEIGHTED): the mean colour, which multiplies the mixture, has that of all.
 //
-// [0]           one lobe for all texels: (sum r, coverage)
+// [0]           one lobe for all texels: (sum r, coverage or, weighted, what it mirrors)
 // [1 .. 4]      one for each of four sectors, where the subdivision is 1 or more
 // [5 .. 12]     one for each half of a sector, where the subdivision is 2
-// [last]        where needed: (mean normal of all texels, mean of 1 - |r| over the base lobes)
+// Then, where needed:
+// [MEAN_LAYER]  (mean normal of all texels, mean of 1 - |r| over the base lobes)
+// [KEPT_LAYER]  coverage, where the weights that [0] has are of what texels mirror
 #define MIXTURE_LAYER_ONE     0
 #define MIXTURE_LAYER_SECTORS 1
 #define MIXTURE_LAYER_HALVES  5
@@ -24,8 +26,9 @@
 #define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 4) // uint, THRESHOLD_...
 #define SPECIALISE_CLUSTERS    (SPECIALISE_FILTER + 5) // uint, CLUSTERS_...
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
-#define SPECIALISE_ONE_HUE  (SPECIALISE_FILTER + 6)
-#define SPECIALISE_WEIGHTED (SPECIALISE_FILTER + 7) // bool, texels count by what they mirror
+#define SPECIALISE_ONE_HUE    (SPECIALISE_FILTER + 6)
+#define SPECIALISE_WEIGHTED   (SPECIALISE_FILTER + 7) // bool, texels count by what they mirror
+#define SPECIALISE_KEPT_LAYER (SPECIALISE_FILTER + 8) // uint, layer of the coverage; 0: none
 
 // Numbers of the filter's knobs (see knobs.h).
 struct lobes_knobs {

@@ -19,9 +19,6 @@
 //                 There, and under a mask, in alpha how much the texels count (maps/base_maps.glsl)
 #define MOMENT_MAXIMUM_BINS 6
 
-// So much of its mass a lobe counts in any case, to have moments where all is black.
-#define MOMENT_LEAST_MIRRORED 0.02
-
 #define SPECIALISE_BINS       (SPECIALISE_FILTER + 20) // uint, [1, MOMENT_MAXIMUM_BINS]
 #define SPECIALISE_PARTITION  (SPECIALISE_FILTER + 21) // uint, PARTITION_...
 #define SPECIALISE_BIN_COLOUR (SPECIALISE_FILTER + 22) // bool: bins have colours

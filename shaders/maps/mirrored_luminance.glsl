@@ -2,18 +2,25 @@
 #define MIRRORED_LUMINANCE_GLSL
 
 // How much a microfacet material mirrors at a point of its maps: rust is rough, and mirrors a tenth
-// of what the metal does. Factors of the material are left out, so that new ones rebuild nothing.
+// of what the metal does.
 
+#include "interface/mirrored.h"
+#include "lib/light/luminance.glsl"
 #include "maps/base_maps.glsl"
 
 layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = false;
 
-// The luminance of F0 (glTF 2.0, appendix B.2). `coloured`: with the base colour map; without it,
-// metal is white.
+// The luminance of F0 (glTF 2.0, appendix B.2). The pass reads the material's colours, too
+// (passes_base_maps_read). `coloured`: with the base colour map; without it, metal has the
+// material's colour.
 float mirrored_luminance(vec2 point, bool coloured) {
-    float metallic = METALLIC_MAP ? base_texel(width_map, point).b : 1.0;
-    vec3 colour = coloured ? base_texel(base_colour_map, point).rgb : vec3(1.0);
-    return mix(0.04, dot(colour, vec3(0.2126, 0.7152, 0.0722)), metallic);
+    float metallic = material.metallic;
+    if (METALLIC_MAP)
+        metallic *= base_texel(width_map, point).b;
+    vec3 colour = material.base_colour.rgb;
+    if (coloured)
+        colour *= base_texel(base_colour_map, point).rgb;
+    return mix(mix(DIELECTRIC_F0, lobe_luminance(colour), metallic), 1.0, LEAST_MIRRORED);
 }
 
 #endif

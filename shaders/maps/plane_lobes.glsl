@@ -3,6 +3,7 @@
 
 // A material's base lobes in the Lambert plane, with their colours, for the passes that sort lobes.
 
+#include "interface/mirrored.h"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/lobe/lambert_plane.glsl"
 #include "lib/lobe/plane_lobe.glsl"
@@ -12,9 +13,6 @@ layout(constant_id = SPECIALISE_BASE_AS_LOBE) const bool BASE_AS_LOBE = false;
 layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = true;
 
 layout(set = 0, binding = 7) uniform sampler2D specular_map;
-
-// glTF 2.0, appendix B.2.
-const float DIELECTRIC_F0 = 0.04;
 
 // A base lobe of a texel.
 struct plane_lobe {

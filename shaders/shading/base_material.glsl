@@ -4,6 +4,7 @@
 // A material at one point of its maps, and its reflectance: what `direct` and the reference
 // evaluate, and what all other filters should average.
 
+#include "interface/mirrored.h"
 #include "shading/albedo_table.glsl"
 #include "shading/facet_pairs.glsl"
 #include "lib/number/angle.glsl"
@@ -43,7 +44,7 @@ base_material assemble_material(surface_point surface, vec3 normal, vec4 base_co
         float metallic = material.metallic * (METALLIC_MAP ? width.b : 1.0);
         // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
         base.diffuse = albedo * (1.0 - metallic);
-        base.specular = mix(vec3(0.04), albedo, metallic);
+        base.specular = mix(vec3(DIELECTRIC_F0), albedo, metallic);
         base.width = convolved(microfacet_parameter(DISTRIBUTION, material.roughness * width.g));
     } else {
         base.diffuse = albedo;

@@ -22,7 +22,8 @@ static void specialise(const filter_context *context, const device_material *mat
     passes_specialise(list, SPECIALISE_BASE_LOBES, variation_of(material));
 }
 
-static reduced_map make_map(const filter_context *context, uint32_t index, uint32_t variation) {
+static reduced_map make_map(const filter_context *context, uint32_t index, uint32_t variation,
+                            bool metallic_varies) {
     const lobe_map_kind kind = {
         .content = "base lobes",
         .pass = "base_lobes",
@@ -31,6 +32,7 @@ static reduced_map make_map(const filter_context *context, uint32_t index, uint3
         .binding = "base_lobe_map",
         .layers = 1,
         .reads_base_colour = variation == BASE_LOBES_COLOURED,
+        .reads_factors = variation == BASE_LOBES_COLOURED || metallic_varies,
         .read_more = specialise,
     };
     return passes_lobe_map(context, index, &kind, passes_filtered_map_format(context));
@@ -42,7 +44,7 @@ void passes_base_lobes_build(const filter_context *context, uint32_t index,
     const uint32_t variation = variation_of(material);
     lobe_resource resource = lobe_graph_import_texture(context->graph, context->scene->white);
     if (variation != BASE_LOBES_ALIKE) {
-        const reduced_map map = make_map(context, index, variation);
+        const reduced_map map = make_map(context, index, variation, material->metallic_varies);
         appearance->bytes += passes_reduced_map_bytes(&map, passes_filtered_map_format(context));
         resource = map.resource;
     }

@@ -69,16 +69,16 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     mixture_map mixture = {.format = passes_filtered_map_format(context),
                            .subdivision = request->subdivision,
                            .space = space,
-                           .weighted = space == LOBE_SPACE_TANGENT &&
-                                       passes_mirrored_luminance_varies(material)};
+                           .weighted = passes_mirrored_luminance_varies(material)};
     uint32_t layers = layers_of(request->subdivision);
-    mixture.mean_layer = request->mean ? layers : 0;
+    mixture.mean_layer = request->mean ? layers++ : 0;
+    if (mixture.weighted && (space != LOBE_SPACE_TANGENT || passes_lobes_are_masked(material)))
+        mixture.kept_layer = layers++;
     char name[64];
     if (space == LOBE_SPACE_TANGENT)
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
     else
         snprintf(name, sizeof name, "mixture of instance %zu", instance);
-    layers += request->mean ? 1 : 0;
     mixture.map =
         space == LOBE_SPACE_TANGENT
             ? passes_seen_map_declare(context, drawn->material, name, mixture.format, layers, true)
@@ -89,7 +89,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     if (space != LOBE_SPACE_TANGENT)
         atlas = passes_surface_atlas_draw(context, instance, grid.width, grid.height);
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "lobe_clustering");
-    passes_base_maps_read(context, material, false, pass);
+    passes_base_maps_read(context, material, mixture.weighted, pass);
     passes_base_colour_read(context, material, mixture.weighted, pass);
     passes_reduced_map_write(&mixture.map, pass, "mixture_map", 0);
     specialisation_list list = {.graph = context->graph};
@@ -98,6 +98,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     passes_specialise(&list, SPECIALISE_CLUSTERS, request->clusters);
     passes_specialise(&list, SPECIALISE_MEAN_LAYER, mixture.mean_layer);
     passes_specialise(&list, SPECIALISE_WEIGHTED, mixture.weighted);
+    passes_specialise(&list, SPECIALISE_KEPT_LAYER, mixture.kept_layer);
     const struct lobe_grid_constants tangent_constants =
         passes_lobe_grid_constants(context, material);
     struct atlas_constants atlas_constants = {.width = grid.width,

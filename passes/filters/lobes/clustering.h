@@ -12,6 +12,7 @@ typedef struct mixture_map {
     uint32_t mean_layer;  ///< layer of the mean normal and length; 0: none
     lobe_map_space space; ///< tangent, object or camera
     bool weighted;        ///< texels count by what they mirror
+    uint32_t kept_layer;  ///< layer of the coverage, where the weights are not that; 0: none
 } mixture_map;
 
 /// What is wanted of a mixture map.

@@ -242,6 +242,7 @@ static void specialise_mixture(const lobe_material *material, const mixture_map 
     passes_appearance_specialise(appearance, SPECIALISE_COARSEST, coarsest);
     passes_appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
     passes_appearance_specialise(appearance, SPECIALISE_WEIGHTED, mixture->weighted);
+    passes_appearance_specialise(appearance, SPECIALISE_KEPT_LAYER, mixture->kept_layer);
     passes_appearance_specialise(appearance, SPECIALISE_SPACE,
                                  mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
                                  : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT

@@ -5,7 +5,7 @@
 
 /// Whether texels of a material mirror more or less light than others, and maps of its lobes can
 /// tell which: its colours lie on the surface as its lobes do. Such maps weight each texel by that
-/// (shaders/maps/mirrored_luminance.glsl). Under a mask, texels count by what it keeps instead.
+/// (shaders/maps/mirrored_luminance.glsl), and under a mask also by what that keeps.
 bool passes_mirrored_luminance_varies(const device_material *material);
 
 #endif

@@ -1,9 +1,10 @@
 #include "passes/upload/colours/material_colours.h"
 
 #include "passes/upload/colours/colour_texel.h"
+#include "shaders/interface/mirrored.h"
 
 double passes_reflectance_of(double albedo, double metallic) {
-    return 0.04 * (1 - metallic) + albedo * metallic;
+    return DIELECTRIC_F0 * (1 - metallic) + albedo * metallic;
 }
 
 static bool read_map(const lobe_scene *scene, const device_material *material, uint32_t map,

@@ -6,6 +6,7 @@
 // do. One thread a facet.
 
 #include "interface/displacement/relief.h"
+#include "interface/mirrored.h"
 #include "lib/map/base_texel.glsl"
 
 layout(local_size_x = 64) in;
@@ -33,7 +34,7 @@ facet_colours colours_at(vec2 point) {
     if (METALLIC_MAP)
         metallic *= base_texel(width_map, point).b;
     // glTF 2.0, appendix B.2.
-    vec3 mirrored = mix(vec3(0.04), albedo, metallic), diffuse = albedo * (1.0 - metallic);
+    vec3 mirrored = mix(vec3(DIELECTRIC_F0), albedo, metallic), diffuse = albedo * (1.0 - metallic);
     return facet_colours(diffuse, mirrored + diffuse * (1.0 - mirrored));
 }
 

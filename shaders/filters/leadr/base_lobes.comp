@@ -3,7 +3,8 @@
 #pragma variants SEEN_TILES
 
 // The finest level of a map of base lobes, where roughness or metal varies. Each lobe counts as
-// much as it mirrors.
+// much as it mirrors; where that does not vary, the material's factors are left out, and all count
+// alike.
 
 #include "maps/base_maps.glsl"
 #include "maps/mirrored_luminance.glsl"

@@ -6,7 +6,8 @@
 // Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping, sections 3.2 and 4. Each cluster j of a
 // subdivision keeps w_j r_j and, as a fourth channel, w_j: only these can be averaged further.
 // Texels that are left out (outside the atlas, facing away, cut away by a mask) add nothing to
-// either, so that the weights of a subdivision add up to the coverage.
+// either, so that the weights of a subdivision add up to the coverage; or, where texels count by
+// what they mirror, to that, and the coverage is a sum of its own.
 
 #include "maps/base_maps.glsl"
 #include "maps/mirrored_luminance.glsl"
@@ -19,6 +20,7 @@
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
+layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
 layout(constant_id = SPECIALISE_CLUSTERS) const uint CLUSTERS = CLUSTERS_TURNED;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
@@ -26,6 +28,7 @@ layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
 struct cluster_sums {
     vec4 halves[8]; // finest clusters; only the first where SUBDIVISION is 0
     vec4 mean;      // normal, and 1 - |r| of the base lobes
+    float kept;     // coverage
 };
 
 cluster_sums no_lobes() {
@@ -33,6 +36,7 @@ cluster_sums no_lobes() {
     for (int i = 0; i < 8; ++i)
         sums.halves[i] = vec4(0.0);
     sums.mean = vec4(0.0);
+    sums.kept = 0.0;
     return sums;
 }
 
@@ -67,6 +71,7 @@ void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture
         if (has_map(MAP_WIDTH))
             base_complements(width_at(point), complements);
         sums.mean.xyz += weight * (to_mixture * normal);
+        sums.kept += weight;
         if (WEIGHTED)
             weight *= mirrored_luminance(point, has_map(MAP_BASE_COLOUR));
         for (int i = 0; i < LOBE_COUNT; ++i) {
@@ -101,6 +106,8 @@ void store_clusters(ivec2 position, cluster_sums sums) {
     }
     if (MEAN_LAYER != 0u)
         store_layer(position, int(MEAN_LAYER), sums.mean);
+    if (KEPT_LAYER != 0u)
+        store_layer(position, int(KEPT_LAYER), vec4(sums.kept));
 }
 
 #endif

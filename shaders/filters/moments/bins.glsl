@@ -24,7 +24,8 @@ float colour_unit() {
 vec3 colour_of_bin(surface_point surface, vec4 fetched) {
     if (MODEL != MODEL_MICROFACET)
         return fetched.rgb;
-    return 0.04 * fetched.a + (VERTEX_COLOUR ? fetched.rgb * surface.colour.rgb : fetched.rgb);
+    vec3 metal = VERTEX_COLOUR ? fetched.rgb * surface.colour.rgb : fetched.rgb;
+    return DIELECTRIC_F0 * fetched.a + metal;
 }
 
 // What follows the layers of all bins: the mean diffuse colour, and the inverse of how much the

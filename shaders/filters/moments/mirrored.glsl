@@ -6,15 +6,16 @@
 // declares MODEL.
 
 #include "interface/material.h"
-#include "interface/moment_bins.h"
+#include "interface/mirrored.h"
+#include "lib/light/luminance.glsl"
 
 // The luminance of F0, at most 1 with colours in units that hold them. `colour`: of metal in this
 // unit, and how much is not metal; of one lobe, or the mean of several.
 float mirrored_by(vec4 colour, float unit) {
     if (MODEL != MODEL_MICROFACET)
         return 1.0;
-    float luminance = unit * dot(colour.rgb, vec3(0.2126, 0.7152, 0.0722)) + 0.04 * colour.a;
-    return mix(luminance / max(unit, 1.0), 1.0, MOMENT_LEAST_MIRRORED);
+    float reflected = unit * lobe_luminance(colour.rgb) + DIELECTRIC_F0 * colour.a;
+    return mix(reflected / max(unit, 1.0), 1.0, LEAST_MIRRORED_BINS);
 }
 
 #endif

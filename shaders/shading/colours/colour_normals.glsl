@@ -14,6 +14,7 @@
 #ifdef FILTERED_MAPS_GLSL
 
 #include "interface/colours/colour_correlation.h"
+#include "interface/mirrored.h"
 #include "lib/lobe/direction_lobe.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/microfacet/microfacet.glsl"
@@ -83,7 +84,7 @@ vec3 add_colour_normals(vec3 reflected, surface_point surface, vec3 incoming) {
     vec3 let_through = vec3(INVERSE_PI);
     if (MODEL == MODEL_MICROFACET)
         let_through *=
-            1.0 - fresnel_schlick(vec3(0.04), vec3(1.0),
+            1.0 - fresnel_schlick(vec3(DIELECTRIC_F0), vec3(1.0),
                                   dot(incoming, half_vector(incoming, surface.outgoing)));
     vec3 mean = drawn_colours.mean, colour = let_through * drawn_colours.colour;
     float facing = normal_below(dot(mean, incoming) / normal_deviation(mean));

@@ -80,7 +80,7 @@ vec3 diffuse_of_means(metal_means means, vec3 specular) {
     float rest = 1.0 - means.share;
     // Metal's share where the diffuse colour is: E[m (1 - m)]/E[1 - m].
     float covering = clamp((means.share - means.square) / max(rest, 1e-3), 0.0, means.share);
-    vec3 own = mix(vec3(0.04), means.metal / max(means.share, 1e-3), covering);
+    vec3 own = mix(vec3(DIELECTRIC_F0), means.metal / max(means.share, 1e-3), covering);
     return max(means.colour - means.metal, vec3(0.0)) * max(1.0 - own, vec3(0.0)) /
            max(1.0 - specular, vec3(0.05));
 }
@@ -96,7 +96,7 @@ base_material filtered_material(surface_point surface, vec3 normal, map_area lob
     base_material base = assemble_material(
         surface, normal, vec4(1.0), unfiltered_texel(MAP_WIDTH, width_map, surface), vec3(1.0));
     metal_means means = fetch_metal_means(surface, lobes);
-    base.specular = means.metal + 0.04 * (1.0 - means.share);
+    base.specular = means.metal + DIELECTRIC_F0 * (1.0 - means.share);
     base.diffuse = diffuse_of_means(means, base.specular);
     return base;
 }

@@ -2,7 +2,10 @@
 
 #include <math.h>
 
+#include <lobe/colour.h>
+
 #include "passes/upload/colours/material_colours.h"
+#include "shaders/interface/mirrored.h"
 
 /// Variance of half vectors under the broad light: what it shows is 0.1 radians wide.
 static const double broad_light = 0.01;
@@ -135,9 +138,10 @@ static void average_colours(footprint *patch) {
 
 /// As shaders/filters/moments/mirrored.glsl.
 static double mirrored_by(const footprint *patch, const plane_sample *lobe) {
-    const double *f0 = lobe->specular;
-    const double luminance = 0.2126 * f0[0] + 0.7152 * f0[1] + 0.0722 * f0[2];
-    return patch->microfacet ? luminance + MOMENT_LEAST_MIRRORED * (1 - luminance) : 1;
+    const float f0[] = {(float)lobe->specular[0], (float)lobe->specular[1],
+                        (float)lobe->specular[2]};
+    const double luminance = (double)lobe_luminance(f0);
+    return patch->microfacet ? luminance + LEAST_MIRRORED_BINS * (1 - luminance) : 1;
 }
 
 static bool mirrors_alike(const footprint *patch) {
