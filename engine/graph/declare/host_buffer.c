@@ -38,6 +38,14 @@ static bool check_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer, co
     return graph->frame.result == LOBE_OK;
 }
 
+/// Where the host does not say which content it has, a new stamp in every frame.
+static engine_stamp content_of(const lobe_graph *graph, const lobe_vulkan_buffer *buffer) {
+    const uint64_t numbers[] = {ENGINE_GRAPH_HOST_BUFFER, (uint64_t)(uintptr_t)buffer->buffer,
+                                buffer->content, buffer->offset, buffer->size};
+    return buffer->content ? engine_stamp_bytes(ENGINE_STAMP_NONE, numbers, sizeof numbers)
+                           : engine_device_stamp(graph->device);
+}
+
 lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer) {
     if (!buffer) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH,
@@ -65,8 +73,7 @@ lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph, const lobe_vulkan
         .levels = 1,
         .layers = 1,
         .borrowed = true,
-        // A new stamp in every frame: its content is unknown.
-        .identity = engine_device_stamp(graph->device),
+        .identity = content_of(graph, buffer),
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
                    .layout = ENGINE_LAYOUT_LENT},

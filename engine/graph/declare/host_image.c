@@ -35,6 +35,17 @@ static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const
     return graph->frame.result == LOBE_OK;
 }
 
+/// Where the host does not say which content it has, a new stamp in every frame.
+static engine_stamp content_of(const lobe_graph *graph, const engine_graph_resource *resource) {
+    const lobe_vulkan_image *image = resource->host;
+    const uint64_t numbers[] = {ENGINE_GRAPH_HOST_IMAGE, (uint64_t)(uintptr_t)image->image,
+                                image->content,          resource->format,
+                                resource->width,         resource->height,
+                                resource->layers,        resource->levels};
+    return image->content ? engine_stamp_bytes(ENGINE_STAMP_NONE, numbers, sizeof numbers)
+                          : engine_device_stamp(graph->device);
+}
+
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {
     if (!image) {
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "lobe_graph_import_image: image must not be NULL");
@@ -65,8 +76,7 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
         .levels = resource.levels,
         .layers = resource.layers,
         .borrowed = true,
-        // A new stamp in every frame: its content is unknown.
-        .identity = engine_device_stamp(graph->device),
+        .identity = content_of(graph, &resource),
         .before = {.stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .access = VK_ACCESS_2_MEMORY_WRITE_BIT,
                    .layout = has_content ? ENGINE_LAYOUT_LENT : ENGINE_LAYOUT_UNDEFINED},

@@ -177,13 +177,13 @@ LOBE_API lobe_resource lobe_graph_import_buffer(lobe_graph *graph, const lobe_bu
 
 /// Imports a Vulkan image of the host. Passes may draw into it, write it as far as its usage
 /// allows, and read it. At the end of the frame it is in the layout that the host asked for.
-/// `image` is copied. Passes that read the content run in every frame, as lobe cannot tell whether
-/// it has changed.
+/// `image` is copied. Passes that read the content run in every frame, unless its `content` says
+/// that it has not changed.
 LOBE_API lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image);
 
 /// Imports a Vulkan buffer of the host. Passes may use it as far as its usage allows. `buffer` is
-/// copied. Passes that read the content run in every frame, as lobe cannot tell whether it has
-/// changed.
+/// copied. Passes that read the content run in every frame, unless its `content` says that it has
+/// not changed.
 LOBE_API lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph,
                                                      const lobe_vulkan_buffer *buffer);
 

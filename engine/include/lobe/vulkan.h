@@ -167,6 +167,11 @@ struct lobe_vulkan_image {
     /// A two-dimensional view of level 0 of layer 0, in the image's format and with all its usages;
     /// must live as long as the image. VK_NULL_HANDLE: lobe creates one in every frame.
     VkImageView view;
+    /// Which content the image has when the frame starts: a number that the host changes whenever
+    /// the host or a frame has written to the image, or another image may have taken over its
+    /// handle. While it stays the same, what lobe made of the content is kept and not made again.
+    /// 0: the content may be another one in every frame.
+    uint64_t content;
 };
 
 /// A buffer of the host that a frame reads or writes: see lobe_graph_import_host_buffer. It must
@@ -184,6 +189,7 @@ struct lobe_vulkan_buffer {
     /// accesses.
     VkPipelineStageFlags2 final_stages;
     VkAccessFlags2 final_access;
+    uint64_t content; ///< which content the range has when the frame starts: as of an image
 };
 
 /// lobe's equivalent of a format; LOBE_FORMAT_NONE if there is none.

@@ -110,8 +110,9 @@ typedef struct lobe_given_content {
 /// vertex of its mesh. Called while a graph is declared, before anything reads a map. A frame may
 /// take several graphs, for all of which the content must be the same: one for every eight samples
 /// of the reference, and one for each step of `environment_progress` and `fits_progress`. Filtered
-/// maps are rebuilt where the texels can have changed: in every frame from an image of the host's
-/// Vulkan, and otherwise if the passes that write them read something that changed.
+/// maps are rebuilt where the texels can have changed: from an image of the host's Vulkan in every
+/// frame, or if its `content` has changed; otherwise if the passes that write them read something
+/// that changed.
 typedef void (*lobe_content_giver)(void *user, lobe_graph *graph,
                                    const lobe_given_content *content);
 

@@ -138,30 +138,54 @@ static void what_the_host_drew_is_kept(void **state) {
     host_image_destroy(&f->host, &image);
 }
 
-/// A copy of the host's image, by a shader that cannot write it.
-static void a_frame_reads_the_hosts_image(void **state) {
+/// A copy of what the host gives, kept between frames.
+static lobe_pass_state copy_kept(fixture *f, lobe_resource source, lobe_resource copy) {
+    lobe_pass *pass = lobe_graph_add_pass(f->graph, LOBE_PASS_TRANSFER, "copy");
+    copy = lobe_pass_copy(pass, source, (lobe_range){0}, copy, (lobe_range){0});
+    lobe_graph_output(f->graph, copy);
+    check(f, lobe_graph_execute(f->graph));
+    return lobe_graph_describe(f->graph)->passes[0].state;
+}
+
+/// By number of the content; 0: the host may have changed it in between.
+static const struct content_case {
+    uint64_t content;
+    lobe_pass_state expected;
+} content_cases[] = {{0, LOBE_PASS_RUN},     {0, LOBE_PASS_RUN},    {7, LOBE_PASS_RUN},
+                     {7, LOBE_PASS_SKIPPED}, {8, LOBE_PASS_RUN},    {0, LOBE_PASS_RUN},
+                     {8, LOBE_PASS_RUN},     {8, LOBE_PASS_SKIPPED}};
+
+static void an_image_is_read_again_where_its_content_changed(void **state) {
     fixture *f = *state;
     host_image image = green_picture(f);
-    for (int i = 0; i < 2; i++) {
+    VkImageLayout layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    for (size_t i = 0; i < sizeof content_cases / sizeof *content_cases; i++) {
         lobe_graph_begin(f->graph);
-        lobe_vulkan_image lent = lend(&image, i ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-                                                : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        lobe_resource source = lobe_graph_import_image(f->graph, &lent);
-        lobe_resource copy =
+        lobe_vulkan_image lent = lend(&image, layout);
+        lent.content = content_cases[i].content;
+        layout = lent.final_layout;
+        const lobe_resource copy =
             lobe_graph_image(f->graph, &(lobe_image_description){.name = "copy",
                                                                  .format = LOBE_FORMAT_RGBA32_FLOAT,
                                                                  .width = SIZE,
                                                                  .height = SIZE,
                                                                  .retained = true});
-        lobe_pass *pass = lobe_graph_add_pass(f->graph, LOBE_PASS_TRANSFER, "copy");
-        copy = lobe_pass_copy(pass, source, (lobe_range){0}, copy, (lobe_range){0});
-        lobe_graph_read_back(f->graph, copy, (lobe_range){0});
-        check(f, lobe_graph_execute(f->graph));
-        const float *texels = lobe_graph_data(f->graph, copy, NULL);
-        assert_memory_equal(texels, ((float[]){0, 1, 0.25f, 1}), 16);
-        // The host may have changed it in between.
-        assert_int_equal(lobe_graph_describe(f->graph)->passes[0].state, LOBE_PASS_RUN);
+        assert_int_equal(copy_kept(f, lobe_graph_import_image(f->graph, &lent), copy),
+                         content_cases[i].expected);
     }
+    host_image_destroy(&f->host, &image);
+}
+
+static void a_frame_reads_the_hosts_image(void **state) {
+    fixture *f = *state;
+    host_image image = green_picture(f);
+    lobe_graph_begin(f->graph);
+    const lobe_vulkan_image lent = lend(&image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    const lobe_resource source = lobe_graph_import_image(f->graph, &lent);
+    lobe_graph_read_back(f->graph, source, (lobe_range){0});
+    check(f, lobe_graph_execute(f->graph));
+    const float *texels = lobe_graph_data(f->graph, source, NULL);
+    assert_memory_equal(texels, ((float[]){0, 1, 0.25f, 1}), 16);
     host_image_destroy(&f->host, &image);
 }
 
@@ -254,6 +278,23 @@ static void frames_read_and_write_the_hosts_buffer(void **state) {
     memcpy(&bits, filling, sizeof bits);
     assert_words(f, part, bits, 0);
     assert_words(f, rest, 100, 3); // is not filled
+    host_buffer_destroy(&f->host, &buffer);
+}
+
+static void a_buffer_is_read_again_where_its_content_changed(void **state) {
+    fixture *f = *state;
+    host_buffer buffer =
+        host_buffer_create(&f->host, OFFSET + PART,
+                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    for (size_t i = 0; i < sizeof content_cases / sizeof *content_cases; i++) {
+        lobe_vulkan_buffer lent = lend_part(&buffer);
+        lent.content = content_cases[i].content;
+        lobe_graph_begin(f->graph);
+        const lobe_resource copy = lobe_graph_buffer(
+            f->graph, &(lobe_buffer_description){.name = "copy", .size = PART, .retained = true});
+        assert_int_equal(copy_kept(f, lobe_graph_import_host_buffer(f->graph, &lent), copy),
+                         content_cases[i].expected);
+    }
     host_buffer_destroy(&f->host, &buffer);
 }
 
@@ -563,10 +604,12 @@ int main(void) {
         TEST(a_frame_draws_into_the_hosts_image),
         TEST(what_the_host_drew_is_kept),
         TEST(a_frame_reads_the_hosts_image),
+        TEST(an_image_is_read_again_where_its_content_changed),
         TEST(an_unused_image_changes_its_layout),
         cmocka_unit_test(displays_have_formats_too),
         TEST(mistakes_are_named),
         TEST(frames_read_and_write_the_hosts_buffer),
+        TEST(a_buffer_is_read_again_where_its_content_changed),
         TEST(mistakes_with_buffers_are_named),
         TEST(a_frame_waits_for_the_host_and_tells_it),
         TEST(read_back_is_there_after_waiting),
