@@ -6,8 +6,8 @@
 #include "passes/context/shared_knobs.h"
 #include "passes/environment/broad_reflection.h"
 #include "passes/environment/directional_albedo.h"
-#include "passes/environment/hemisphere_moments.h"
-#include "passes/environment/irradiance_harmonics.h"
+#include "passes/environment/hemispheres/hemisphere_moments.h"
+#include "passes/environment/hemispheres/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
 #include "passes/environment/reflected_lobes.h"
 #include "passes/environment/reflection_table.h"
@@ -133,9 +133,9 @@ static bool gathers_moments(const filter_context *context, const device_material
            (context->filter->gathers_moments && material->maps[MAP_HEIGHT].use);
 }
 
-/// The moments and the tables that materials need. `source`: what the irradiance comes from.
+/// The moments and the tables that materials need.
 static void build_moments_and_tables(const filter_context *context, environment_light *light,
-                                     irradiance_source source) {
+                                     const environment_means *means) {
     const device_scene *scene = context->scene;
     for (size_t i = 0; i < scene->scene->material_count; i++) {
         const device_material *material = &scene->materials[i];
@@ -144,7 +144,7 @@ static void build_moments_and_tables(const filter_context *context, environment_
             continue;
         const uint32_t ways = broad_reflection_of(context, light, material);
         if (gathers_moments(context, material, ways) && !light->moments.version)
-            light->moments = passes_hemisphere_moments(context->graph, source);
+            light->moments = passes_hemisphere_moments(context->graph, means);
         build_reflection_tables(context, light, ways, distribution, distribution);
         if (context->filter->slopes && (material->map_bits & (1u << MAP_NORMAL | 1u << MAP_WIDTH)))
             build_reflection_tables(context, light, ways, LOBE_DISTRIBUTION_BECKMANN,
@@ -223,11 +223,12 @@ static void build_maps(const filter_context *context, const environment_work *wo
         filtered ? LOBE_ENVIRONMENT_VON_MISES_FISHER : LOBE_ENVIRONMENT_RADIANCE;
     irradiance_source source = {maps.cubes[map], maps.width[map], maps.levels[map], filtered};
     bool harmonics = filtered || light->method == ENVIRONMENT_SAMPLED;
+    const environment_means means = passes_environment_means(context->graph, &source);
     light->harmonics = harmonics ? passes_irradiance_harmonics(
-                                       context->graph, source,
+                                       context->graph, source, &means,
                                        passes_knob_value(context, &passes_knob_environment_window))
                                  : no_harmonics(context->graph);
-    build_moments_and_tables(context, light, source);
+    build_moments_and_tables(context, light, &means);
 }
 
 static lobe_result refuse_exact(const filter_context *context, const char *where,

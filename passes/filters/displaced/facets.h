@@ -38,8 +38,8 @@ typedef struct facets_request {
     bool in_parts;
 } facets_request;
 
-/// Declares the buffers for up to so many facets, and adds basis_cells, transfer_basis and facet_groups
-/// where they are needed.
+/// Declares the buffers for up to so many facets, and adds basis_cells, transfer_basis and
+/// facet_groups where they are needed.
 seen_facets passes_facets_begin(const facets_request *request, uint32_t facets);
 
 /// Adds facet_transfer and facet_links for a range of a window's facets, in place of what the

@@ -20,10 +20,6 @@
 // around it: 32 leave linear interpolation an error of 2e-3 of the irradiance of a single light.
 #define HEMISPHERE_MOMENTS_SIZE 32
 
-// Texels along a face of the cube that is summed, at most: the mean radiance of texels 3 degrees
-// wide.
-#define HEMISPHERE_MOMENTS_SOURCE 32
-
 // Push constants of hemisphere_moments.
 struct hemisphere_moments_constants {
     uint size; // texels along a face of the cube

@@ -6,11 +6,18 @@
 // Spherical harmonics of degree l and order m, l <= 2, |m| <= l: number l (l + 1) + m.
 #define HARMONICS 9
 
+// Texels along the map of what nine harmonics miss (lib/light/octahedron.glsl), without the border
+// of one texel around it: as many as those of hemisphere_moments.h, for the same reason.
+#define HARMONICS_REMAINDER_SIZE  32
+#define HARMONICS_REMAINDER_WIDTH 34
+
 // Irradiance from all directions, as harmonics; the shading pass reads this buffer directly.
 struct irradiance_harmonics {
     float4 coefficients[HARMONICS]; // RGB, W/m^2 where the radiance is W/(m^2 sr); w: 0
+    // By normal, row by row: irradiance less its harmonics. Zero where harmonics are windowed.
+    float4 remainder[HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH];
 };
-INTERFACE_SIZE(irradiance_harmonics, 144)
+INTERFACE_SIZE(irradiance_harmonics, 18640)
 
 // Texels that one group of the first step adds up, and invocations of a group.
 #define HARMONICS_GROUP_TEXELS 1024
@@ -32,5 +39,12 @@ struct irradiance_harmonics_sum_constants {
 };
 INTERFACE_SIZE(irradiance_harmonics_sum_constants, 32)
 INTERFACE_OFFSET(irradiance_harmonics_sum_constants, count, 16)
+
+// Push constants of irradiance_remainder.
+struct irradiance_remainder_constants {
+    uint size;    // texels along a face's edge
+    uint is_zero; // leave no remainder
+};
+INTERFACE_SIZE(irradiance_remainder_constants, 8)
 
 #endif

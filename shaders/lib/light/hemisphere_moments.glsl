@@ -6,8 +6,8 @@
 #include "lib/light/octahedron.glsl"
 
 // Integrals of an environment's light with polynomials of the direction over the hemisphere of a
-// normal, weighted by its cosine (passes/environment/hemisphere_moments.h). Directions are in the
-// environment's space.
+// normal, weighted by its cosine (passes/environment/hemispheres/hemisphere_moments.h). Directions
+// are in the environment's space.
 
 // All moments of one hemisphere: for each colour, the numbers in the order of
 // interface/environment/hemisphere_moments.h, four a column.

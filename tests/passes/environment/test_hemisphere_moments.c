@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/environment/hemisphere_moments.h"
+#include "passes/environment/hemispheres/hemisphere_moments.h"
 #include "shaders/interface/environment/hemisphere_moments.h"
 #include "tests/reference/light/cube_texel.h"
 #include "tests/reference/vector.h"
@@ -71,8 +71,9 @@ static moment_map *make_moments(fixture *f, int size) {
     for (int face = 0; face < 6; face++)
         faces[face] = upload_face(f->device, face, size);
     lobe_graph_begin(f->graph);
-    lobe_resource moments = passes_hemisphere_moments(
-        f->graph, (irradiance_source){declare_cube(f, size, faces), (uint32_t)size, 1, false});
+    const irradiance_source source = {declare_cube(f, size, faces), (uint32_t)size, 1, false};
+    const environment_means means = passes_environment_means(f->graph, &source);
+    lobe_resource moments = passes_hemisphere_moments(f->graph, &means);
     lobe_graph_read_back(f->graph, moments, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "passes/environment/irradiance_harmonics.h"
+#include "passes/environment/hemispheres/irradiance_harmonics.h"
 #include "shaders/interface/environment/irradiance_harmonics.h"
 #include "tests/reference/light/cube_texel.h"
 #include "tests/reference/light/spherical_harmonics.h"
@@ -124,8 +124,9 @@ static lobe_resource declare(fixture *f, const device_cube *cube) {
 /// One frame.
 static struct irradiance_harmonics run(fixture *f, const device_cube *cube, double window) {
     lobe_graph_begin(f->graph);
-    lobe_resource harmonics = passes_irradiance_harmonics(
-        f->graph, (irradiance_source){declare(f, cube), cube->size, cube->levels, false}, window);
+    const irradiance_source source = {declare(f, cube), cube->size, cube->levels, false};
+    const environment_means means = passes_environment_means(f->graph, &source);
+    lobe_resource harmonics = passes_irradiance_harmonics(f->graph, source, &means, window);
     lobe_graph_read_back(f->graph, harmonics, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
@@ -374,7 +375,72 @@ static void a_window_takes_ringing_out(void **state) {
     free(cube.texels);
 }
 
-/// Neither pass runs again; when rebuilt, both give the same bits.
+/// The normal of a texel inside the border of the map of what harmonics miss.
+static void normal_of_texel(int column, int row, double normal[3]) {
+    const double x = (2.0 * column - 1) / HARMONICS_REMAINDER_SIZE - 1;
+    const double y = (2.0 * row - 1) / HARMONICS_REMAINDER_SIZE - 1;
+    const double z = 1 - fabs(x) - fabs(y);
+    const double folded[2] = {copysign(1 - fabs(y), x), copysign(1 - fabs(x), y)};
+    const double length =
+        sqrt((z < 0 ? folded[0] * folded[0] + folded[1] * folded[1] : x * x + y * y) + z * z);
+    normal[0] = (z < 0 ? folded[0] : x) / length;
+    normal[1] = (z < 0 ? folded[1] : y) / length;
+    normal[2] = z / length;
+}
+
+/// Of the cube's texels as lights in the directions of their centres.
+static double irradiance_at(const host_cube *cube, const double normal[3]) {
+    double sum = 0, whole = 0;
+    for (int i = 0; i < 6 * cube->size * cube->size; i++) {
+        const int x = i % cube->size, y = i / cube->size % cube->size;
+        double direction[3];
+        reference_cube_texel_direction(i / (cube->size * cube->size), x, y, cube->size, direction);
+        const double part = fmax(reference_dot(normal, direction), 0) *
+                            reference_cube_texel_solid_angle(x, y, cube->size);
+        sum += part * (double)cube->texels[4 * i];
+        whole += part;
+    }
+    return M_PI * sum / whole;
+}
+
+/// Harmonics and what they miss are the irradiance. With a window nothing is added to them.
+static void the_remainder_is_what_harmonics_miss(void **state) {
+    enum { WIDTH = HARMONICS_REMAINDER_WIDTH };
+    host_cube cube = cube_of(32, two_lights, axes[6]);
+    set_texel(&cube, 2345, 2000); // a lamp
+    const struct irradiance_harmonics found = project(*state, &cube);
+    double largest = 0, missed = 0, worst = 0;
+    for (int i = 0; i < WIDTH * WIDTH; i += 5) {
+        const int column = i % WIDTH, row = i / WIDTH;
+        if (column == 0 || row == 0 || column == WIDTH - 1 || row == WIDTH - 1)
+            continue;
+        double normal[3], coefficients[REFERENCE_HARMONICS];
+        normal_of_texel(column, row, normal);
+        for (int j = 0; j < REFERENCE_HARMONICS; j++)
+            coefficients[j] = (double)found.coefficients[j][0];
+        const double expected = irradiance_at(&cube, normal);
+        const double harmonics = fmax(reference_harmonic_sum(coefficients, normal), 0);
+        const double remainder = (double)found.remainder[i][0];
+        largest = fmax(largest, expected);
+        missed = fmax(missed, fabs(remainder));
+        worst = fmax(worst, fabs(harmonics + remainder - expected));
+        for (int c = 1; c < 3; c++)
+            assert_true(fabs((double)found.remainder[i][c] - remainder * (1 << c)) <=
+                        1e-5 * largest * (1 << c));
+    }
+    print_message("# harmonics miss %.3g of the peak, with the remainder %.3g\n", missed / largest,
+                  worst / largest);
+    assert_true(missed > 0.02 * largest);
+    assert_true(worst < 1e-5 * largest);
+    device_cube uploaded = upload(*state, &cube, 1);
+    const struct irradiance_harmonics windowed = run(*state, &uploaded, 0.5);
+    for (int i = 0; i < WIDTH * WIDTH; i++)
+        assert_true(windowed.remainder[i][0] == 0);
+    release(&uploaded);
+    free(cube.texels);
+}
+
+/// No pass runs again; when rebuilt, all give the same bits.
 static void a_still_environment_is_not_added_up_again(void **state) {
     fixture *f = *state;
     host_cube cube = cube_of(48, two_lights, axes[6]);
@@ -401,6 +467,7 @@ int main(void) {
         cmocka_unit_test(a_sun_does_not_drown_the_sky),
         cmocka_unit_test(sixty_four_texels_are_enough),
         cmocka_unit_test(a_window_takes_ringing_out),
+        cmocka_unit_test(the_remainder_is_what_harmonics_miss),
         cmocka_unit_test(a_still_environment_is_not_added_up_again),
         cmocka_unit_test(validation_is_silent),
     };

@@ -383,10 +383,10 @@ static void rebuilding_materials_keeps_the_environment(void **state) {
     picture_request request = request_for("mipmap", "env_size=16");
     lobe_frame frame = draw(f, &request);
     const size_t all = count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN);
-    const char *const prepare[] = {"directional_albedo",      "environment_cube",
-                                   "environment_reduction",   "environment_prefiltering",
-                                   "environment_mixture",     "irradiance_harmonics",
-                                   "irradiance_harmonics_sum"};
+    const char *const prepare[] = {"directional_albedo",       "environment_cube",
+                                   "environment_reduction",    "environment_prefiltering",
+                                   "environment_mixture",      "irradiance_harmonics",
+                                   "irradiance_harmonics_sum", "irradiance_remainder"};
     size_t once = 0;
     for (size_t i = 0; i < sizeof prepare / sizeof *prepare; i++)
         once += count_passes(lobe_renderer_graph(f->renderer), prepare[i], LOBE_PASS_RUN);

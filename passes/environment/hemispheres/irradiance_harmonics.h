@@ -1,19 +1,7 @@
-#ifndef PASSES_ENVIRONMENT_IRRADIANCE_HARMONICS_H
-#define PASSES_ENVIRONMENT_IRRADIANCE_HARMONICS_H
+#ifndef PASSES_ENVIRONMENT_HEMISPHERES_IRRADIANCE_HARMONICS_H
+#define PASSES_ENVIRONMENT_HEMISPHERES_IRRADIANCE_HARMONICS_H
 
-#include <stdbool.h>
-
-#include <lobe/graph.h>
-
-/// An environment cube: `levels` of six square layers, faces in Vulkan's order and orientation,
-/// linear radiance. Every level holds means over solid angle of the one above, or radiance filtered
-/// with von Mises-Fisher lobes of lobe_environment_level_concentration().
-typedef struct irradiance_source {
-    lobe_resource cube;
-    uint32_t size; ///< texels along a face's edge at level 0, above 0
-    uint32_t levels;
-    bool filtered;
-} irradiance_source;
+#include "passes/environment/hemispheres/means.h"
 
 /// Adds the passes that project an environment's irradiance to nine spherical harmonics
 /// (Ramamoorthi, Hanrahan 2001): a retained buffer of struct irradiance_harmonics
@@ -24,10 +12,13 @@ typedef struct irradiance_source {
 /// becomes that of the coarser texel's centre, and by 2e-5 for broad lights. Nine harmonics alone
 /// miss the irradiance of that sun by 9e-2 of its peak. Filtered radiance is sharpened again.
 ///
+/// What they miss is added up over `means` (those of `source`) for a map of normals, to 3e-3 of the
+/// peak of a sun, unless harmonics are windowed.
+///
 /// `window` [0, 1): how much ringing opposite bright lights is removed, see
 /// passes_harmonics_window.
 lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
-                                          double window);
+                                          const environment_means *means, double window);
 
 /// lambda >= 0 of Sloan 2008, Stupid Spherical Harmonics Tricks, "Windowing": the irradiance f_w
 /// that minimises

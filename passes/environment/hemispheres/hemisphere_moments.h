@@ -1,7 +1,7 @@
-#ifndef PASSES_ENVIRONMENT_HEMISPHERE_MOMENTS_H
-#define PASSES_ENVIRONMENT_HEMISPHERE_MOMENTS_H
+#ifndef PASSES_ENVIRONMENT_HEMISPHERES_HEMISPHERE_MOMENTS_H
+#define PASSES_ENVIRONMENT_HEMISPHERES_HEMISPHERE_MOMENTS_H
 
-#include "passes/environment/irradiance_harmonics.h"
+#include "passes/environment/hemispheres/means.h"
 
 /// How shaders sample the map: linearly; its border makes that continuous across all edges.
 extern const lobe_sampler passes_hemisphere_moments_sampler;
@@ -16,6 +16,6 @@ extern const lobe_sampler passes_hemisphere_moments_sampler;
 ///
 /// Sums means over texels of 3 degrees: off by at most 3e-3 of the irradiance of a single light,
 /// and exact for light that is the same everywhere.
-lobe_resource passes_hemisphere_moments(lobe_graph *graph, irradiance_source source);
+lobe_resource passes_hemisphere_moments(lobe_graph *graph, const environment_means *means);
 
 #endif

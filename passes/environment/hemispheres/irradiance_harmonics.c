@@ -1,4 +1,4 @@
-#include "passes/environment/irradiance_harmonics.h"
+#include "passes/environment/hemispheres/irradiance_harmonics.h"
 
 #include <lobe/environment_maps.h>
 
@@ -79,16 +79,32 @@ static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32
     return harmonics;
 }
 
+static lobe_resource add_remainder(lobe_graph *graph, lobe_resource harmonics,
+                                   const environment_means *means, double window) {
+    const struct irradiance_remainder_constants constants = {.size = means->size,
+                                                             .is_zero = window > 0};
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "irradiance_remainder");
+    lobe_pass_read(pass,
+                   &(lobe_binding){"environment", means->cube, .range = {means->level, 1, 0, 6}});
+    harmonics =
+        lobe_pass_modify(pass, &(lobe_binding){.name = "harmonics_block", .resource = harmonics});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "environment/irradiance_remainder.comp",
+                               .threads = {HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH},
+                               .constants = &constants,
+                               .constants_size = sizeof constants});
+    return harmonics;
+}
+
 lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
-                                          double window) {
+                                          const environment_means *means, double window) {
     uint32_t level = level_to_read(&source);
     struct irradiance_harmonics_constants constants = {source.size >> level};
     uint32_t texels = 6 * constants.size * constants.size;
     uint32_t groups = (texels + HARMONICS_GROUP_TEXELS - 1) / HARMONICS_GROUP_TEXELS;
     lobe_resource sums = lobe_graph_buffer(
-        graph,
-        &(lobe_buffer_description){.name = "sums of harmonics",
-                                   .size = (size_t)groups * sizeof(struct irradiance_harmonics)});
+        graph, &(lobe_buffer_description){.name = "sums of harmonics",
+                                          .size = (size_t)groups * HARMONICS * 4 * sizeof(float)});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "irradiance_harmonics");
     lobe_pass_read(pass, &(lobe_binding){"environment", source.cube, .range = {level, 1, 0, 6}});
     sums = lobe_pass_write(pass, &(lobe_binding){.name = "group_sums_block", .resource = sums});
@@ -98,5 +114,6 @@ lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source s
                                               .constants_size = sizeof constants});
     double concentration =
         source.filtered ? lobe_environment_level_concentration(source.size, level) : INFINITY;
-    return add_up_groups(graph, sums, groups, concentration, window);
+    return add_remainder(graph, add_up_groups(graph, sums, groups, concentration, window), means,
+                         window);
 }

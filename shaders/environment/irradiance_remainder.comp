@@ -1,0 +1,54 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+// Third step: what nine harmonics miss of the irradiance, for each normal of a map. Of lamps that
+// stand at a surface's horizon they miss up to a tenth of the lamps' peak, and a floor among such
+// lamps was a fifth too bright. The sum over the texels of a cube, each a light in the direction of
+// its centre.
+
+#include "interface/environment/irradiance_harmonics.h"
+#include "lib/light/cube_texel.glsl"
+#include "lib/light/octahedron.glsl"
+#include "lib/light/spherical_harmonics.glsl"
+
+const int GROUP = 64;
+layout(local_size_x = GROUP) in;
+
+layout(set = 0, binding = 0) uniform sampler2DArray environment;
+layout(set = 0, binding = 1, std430) buffer harmonics_block { irradiance_harmonics harmonics; };
+
+layout(push_constant) uniform constants_block { irradiance_remainder_constants constants; };
+
+// Texels of the cube that the group adds next.
+shared vec4 directions[GROUP]; // w: solid angle
+shared vec3 powers[GROUP];     // radiance times solid angle
+
+void load_texel(int index, int size) {
+    int own = int(gl_LocalInvocationID.x), face = index / (size * size);
+    ivec2 texel = ivec2(index % size, index / size % size);
+    float angle = face < 6 ? cube_texel_solid_angle(texel, size) : 0.0;
+    directions[own] = vec4(cube_texel_direction(min(face, 5), texel, size), angle);
+    powers[own] = angle * texelFetch(environment, ivec3(texel, min(face, 5)), 0).rgb;
+}
+
+void main() {
+    const int width = HARMONICS_REMAINDER_WIDTH;
+    int index = int(gl_GlobalInvocationID.x), size = int(constants.size);
+    vec3 normal = octahedron_texel_direction(ivec2(index % width, index / width),
+                                             HARMONICS_REMAINDER_SIZE);
+    vec4 sum = vec4(0.0); // w: of uniform light, whose sum is pi but for the cube's texels
+    for (int first = 0; first < 6 * size * size; first += GROUP) {
+        barrier();
+        load_texel(first + int(gl_LocalInvocationID.x), size);
+        barrier();
+        for (int i = 0; i < GROUP; ++i)
+            sum += max(dot(normal, directions[i].xyz), 0.0) *
+                   vec4(powers[i], directions[i].w);
+    }
+    if (index >= width * width)
+        return;
+    vec3 known = harmonic_irradiance_by_degree(harmonics.coefficients, normal, 1.0, 1.0);
+    vec3 irradiance = PI / sum.w * sum.rgb;
+    harmonics.remainder[index] =
+        constants.is_zero != 0u ? vec4(0.0) : vec4(irradiance - known, 0.0);
+}
