@@ -633,6 +633,28 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
     return sqrt(max(covariance_along(normals.covariance, gradient, gradient), 1e-6));
 }
 
+// The part of light that the facets of a bin mirror to the viewer from above the relief, under a sky
+// that is the same everywhere: masked as that of a sun is, in seven directions that they mirror,
+// nodes of normals that are Gaussian in the plane (exact for polynomials of degree 5).
+float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen) {
+    const uint NODES = 7u;
+    vec2 place = plane_from_direction(normalize(seen.mean));
+    float x = sqrt(max(seen.covariance.x, 1e-12)), shear = seen.covariance.z / x;
+    float y = sqrt(max(seen.covariance.y - shear * shear, 1e-12));
+    float to_viewer = 1.0 + depth * lambda_of_seen(drawn.seen), sum = 0.0;
+    for (uint i = 0u; i < NODES; ++i) {
+        float angle = PI / 3.0 * float(i);
+        vec2 node = i < 6u ? 2.0 * vec2(cos(angle), sin(angle)) : vec2(0.0);
+        vec3 normal = direction_from_plane(place + vec2(x * node.x, shear * node.x + y * node.y));
+        vec3 incoming = reflect(-drawn.viewer, normal);
+        if (incoming.z <= 0.0)
+            continue;
+        float open = seen_part(facing_area(groups, incoming), incoming);
+        sum += (i < 6u ? 1.0 / 12.0 : 0.5) / (to_viewer + depth * lambda_of_seen(open));
+    }
+    return to_viewer * sum;
+}
+
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
 // smooth facets where they mirror light from, and rough ones half as diffuse ones are. The other
 // half of what these reflect comes from about where the viewer is, who sees them.
@@ -641,7 +663,6 @@ struct mirroring_bins {
     float depths[FACET_BINS]; // see find_depths()
     float areas[FACET_BINS];
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
-    float horizons[FACET_BINS]; // heights from which on the relief hides no light
     float shown;                // the sum of areas
     float facets;               // the area of all facets, over that of the carrier
 };
@@ -653,7 +674,6 @@ mirroring_bins find_bins(surface_point surface, float width) {
         bins.groups[k] = facets_of_bin(surface, area, k);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
     find_depths(bins.groups, bins.depths);
-    vec3 slopes = moments_of_slopes(bins.groups);
     float roughness = roughness_from_parameter(DISTRIBUTION, width);
     float alpha = roughness * roughness;
     bins.shown = bins.facets = 0.0;
@@ -666,16 +686,12 @@ mirroring_bins find_bins(surface_point surface, float width) {
         bins.areas[k] = 0.0;
         if (size * bins.shares[k] <= 1e-4)
             continue;
-        vec3 mirrored = reflect(-drawn.viewer, normalize(seen.mean));
-        float deviation = deviation_of_mirrored(seen, drawn.viewer);
-        float top = height_of_open_sky(bins.groups, slopes, mirrored, deviation);
         float cosine = size * mean_facing_cosine(normals, drawn.viewer);
         float area = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
         facing += cosine;
         masked += area;
-        float lit = min(faded_below(mirrored.z / deviation, top / deviation).share, 1.0);
+        float lit = lit_part(bins.groups, bins.depths[k], seen);
         bins.areas[k] = area * mix(lit, 0.5 + 0.5 * closure.direct, alpha);
-        bins.horizons[k] = max(top * (1.0 - alpha), 1e-3);
     }
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
@@ -684,6 +700,20 @@ mirroring_bins find_bins(surface_point surface, float width) {
         bins.shown += bins.areas[k];
     }
     return bins;
+}
+
+// Of each bin, the height from which on the relief hides no light.
+void find_horizons(mirroring_bins bins, float width, out float horizons[FACET_BINS]) {
+    vec3 slopes = moments_of_slopes(bins.groups);
+    float roughness = roughness_from_parameter(DISTRIBUTION, width);
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        float share;
+        normal_spread seen = seen_normals(normals_of(bins.groups[k]), drawn.viewer, share);
+        vec3 mirrored = reflect(-drawn.viewer, normalize(seen.mean));
+        float top = height_of_open_sky(bins.groups, slopes, mirrored,
+                                       deviation_of_mirrored(seen, drawn.viewer));
+        horizons[k] = max(top * (1.0 - roughness * roughness), 1e-3);
+    }
 }
 
 // Light that rough facets mirror onto others goes on as if it were diffuse, and that of smooth ones
@@ -790,12 +820,14 @@ vec3 most_of_environment(polynomials light[3]) {
 vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
     mirroring_bins bins = find_bins(surface, fetched.base.width);
     find_mirrored_on(fetched.base, bins);
+    float horizons[FACET_BINS];
+    find_horizons(bins, fetched.base.width, horizons);
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k)
         if (bins.areas[k] > 0.0)
             sum += bins.areas[k] / max(bins.shares[k], 1e-3) *
                    reflect_bin(surface, bin_of(bins.groups[k], fetched.base.width),
-                               fetched.base.specular, facet_view(true, true, bins.horizons[k]));
+                               fetched.base.specular, facet_view(true, true, horizons[k]));
     return sum / (drawn.viewer.z * drawn.visible);
 }
 
