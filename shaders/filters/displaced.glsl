@@ -97,7 +97,8 @@ struct relief_footprint {
     float visible;       // the area that the viewer sees, over the map's mean of it
     float seen;          // of the facets' area that faces the viewer
     light_sum lights[4];
-    vec3 mirrored_on;  // factor of the light between facets, for what they mirror to each other
+    vec3 mirrored;      // what facets mirror of light from everywhere
+    float mirrored_on;  // how much of that meets other facets, relative to diffuse light
     sent_on_lobe sent_on; // where that comes from if they are smooth
     near_facet near;
 };
@@ -393,7 +394,8 @@ void divide_form(bool lit) {
 
 void gather_relief(surface_point surface, bool lit) {
     drawn.viewer = viewer_of(surface);
-    drawn.mirrored_on = vec3(0.0);
+    drawn.mirrored = vec3(0.0);
+    drawn.mirrored_on = 0.0;
     fetch_transfer(transfer_area(NEAR ? seen_surface(surface) : surface));
     polynomials viewer = polynomials_of(drawn.viewer);
     float functions[ORDER];
@@ -412,9 +414,10 @@ void gather_relief(surface_point surface, bool lit) {
 }
 
 // Of light between facets, by albedo: sums of powers, each less than the one before by the same
-// factor.
+// factor. What the facet that the light meets first and the one that the viewer sees reflect are
+// factors of their own.
 vec3 indirect_share(vec3 albedo) {
-    return albedo * albedo * (1.0 - closure.persistence) / (1.0 - albedo * closure.persistence);
+    return (1.0 - closure.persistence) / (1.0 - albedo * closure.persistence);
 }
 
 // What reaches the viewer: of light at once, of light between facets, and of the latter where they
@@ -488,9 +491,13 @@ vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
         vec3 tint = tint_of(base, surface);
         sum = tint * (passed * reflected.direct + tint * reflected.indirect);
     } else {
-        vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0);
+        vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0), mirrored = drawn.mirrored;
+        // Both facets diffuse, or one of them, or none.
+        vec3 diffuse = albedo * (albedo + (1.0 + drawn.mirrored_on) * mirrored);
         sum = albedo * reflected.direct +
-              indirect_share(albedo) * reflected.indirect + drawn.mirrored_on * reflected.sent_on;
+              indirect_share(min(albedo + mirrored, 1.0)) *
+                  (diffuse * reflected.indirect +
+                   drawn.mirrored_on * mirrored * mirrored * reflected.sent_on);
     }
     return max(sum, 0.0);
 }
@@ -723,8 +730,8 @@ void find_horizons(mirroring_bins bins, float width, out float horizons[FACET_BI
 void find_mirrored_on(base_material base, mirroring_bins bins) {
     float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
     float diffuse = product(integrals_of_polynomials(), drawn.form.red.indirect);
-    drawn.mirrored_on = indirect_share(mirrored_part(base)) *
-                        min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
+    drawn.mirrored = mirrored_part(base);
+    drawn.mirrored_on = min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
     drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0,
                                  roughness_from_parameter(DISTRIBUTION, base.width));
 }
