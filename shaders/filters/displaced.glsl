@@ -640,9 +640,9 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
     return sqrt(max(covariance_along(normals.covariance, gradient, gradient), 1e-6));
 }
 
-// The part of light that the facets of a bin mirror to the viewer from above the relief, under a sky
-// that is the same everywhere: masked as that of a sun is, in seven directions that they mirror,
-// nodes of normals that are Gaussian in the plane (exact for polynomials of degree 5).
+// The part of what the facets of a bin mirror to the viewer that comes from above the relief, under
+// an even sky: masked as a sun is, in seven directions that they mirror, nodes of normals that are
+// Gaussian in the plane (exact for polynomials of degree 5).
 float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen) {
     const uint NODES = 7u;
     vec2 place = plane_from_direction(normalize(seen.mean));
