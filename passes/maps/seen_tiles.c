@@ -59,10 +59,24 @@ static uint32_t end_digest(const tile_marks *marks, uint32_t digest, bool given)
     return digest > 0 ? digest : 1;
 }
 
+/// The factors of a material's colours, which its version ignores, where lobes may have colours of
+/// their own or count by what they mirror.
+static uint32_t mix_colours(uint32_t digest, const device_material *material) {
+    const struct material_constants *values = &material->values;
+    const bool vary = material->metallic_varies || material->maps[MAP_BASE_COLOUR].use ||
+                      material->maps[MAP_SPECULAR].use;
+    if (!vary || !passes_lies_under_lobes(material, MAP_BASE_COLOUR))
+        return digest;
+    digest = mix(digest, &values->base_colour, sizeof values->base_colour);
+    digest = mix(digest, &values->metallic, sizeof values->metallic);
+    return mix(digest, &values->largest_colour, sizeof values->largest_colour);
+}
+
 /// A number of what tiles of a material's lobes are made from.
 static uint32_t content_of(const filter_context *context, const device_material *material) {
     uint32_t digest = mix(2166136261u, &material->version, sizeof material->version);
     digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
+    digest = mix_colours(digest, material);
     digest = mix(digest, context->settings, sizeof *context->settings);
     return end_digest(context->marks, digest, is_given(context->scene, material));
 }

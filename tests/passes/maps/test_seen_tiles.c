@@ -391,6 +391,58 @@ static void tiles_follow_what_they_are_made_from(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// A metal whose colours lie as its lobes do: their texels count by what they mirror.
+static lobe_scene *coloured_metal(void) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 1);
+    material.normal_map = scene_add_map(scene, random_normal_map(128, 128, 0.5, 7));
+    material.metallic_roughness_map = scene_add_map(scene, random_map(128, 128, 0.3, 0.9, 8));
+    material.base_colour_map = scene_add_map(scene, random_map(128, 128, 0.02, 0.9, 9));
+    scene_add_square(scene, &material, 1, NULL);
+    scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
+    scene_look_from(scene, views[0].towards, views[0].height);
+    scene_end(scene);
+    return scene;
+}
+
+/// So are factors of colour and of metal, where texels count by what they mirror: tiles, and whole
+/// maps, that were made with others give the pictures of a scene that is set anew.
+static void tiles_follow_factors(void **state) {
+    enum { CHANGES = 3, WAYS = 3 };
+    static const char *const filters[] = {"moments", "lobes"};
+    static const char *const settings[][2] = {{"refit=anew"}, {NULL}};
+    static const uint32_t first = 0;
+    const lobe_scene_changes changes = {.materials = &first, .material_count = 1};
+    fixture *f = *state;
+    for (size_t n = 0; n < sizeof filters / sizeof *filters; n++) {
+        lobe_scene *scene = coloured_metal();
+        lobe_material *material = &scene->materials[0];
+        lobe_frame frames[WAYS][CHANGES];
+        for (int way = 0; way < WAYS; way++) {
+            material->base_colour[1] = 1;
+            material->metallic = 1;
+            for (int i = 0; i < CHANGES; i++) {
+                if (i == 1)
+                    material->base_colour[1] = 0.02f;
+                else if (i == 2)
+                    material->metallic = 0.3f;
+                assert_int_equal(i == 0 || way == 2
+                                     ? lobe_renderer_set_scene(f->renderer, scene)
+                                     : lobe_renderer_update_scene(f->renderer, &changes),
+                                 LOBE_OK);
+                frames[way][i] = picture(f, scene, filters[n], settings[n], way == 1);
+            }
+        }
+        for (int i = 0; i < WAYS * CHANGES; i++)
+            check_equal(&frames[i / CHANGES][i % CHANGES], &frames[2][i % CHANGES], filters[n],
+                        (size_t)i);
+        for (int i = 0; i < WAYS * CHANGES; i++)
+            lobe_frame_free(&frames[i / CHANGES][i % CHANGES]);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// Bins go on to change when texels no longer do.
 static void tiles_follow_bins_that_settle(void **state) {
     enum { MOVING = 3, FRAMES = 9 };
@@ -508,6 +560,7 @@ int main(void) {
         cmocka_unit_test(pictures_equal_those_of_whole_maps),
         cmocka_unit_test(tiles_that_are_not_read_may_hold_anything),
         cmocka_unit_test(tiles_follow_what_they_are_made_from),
+        cmocka_unit_test(tiles_follow_factors),
         cmocka_unit_test(tiles_follow_bins_that_settle),
         cmocka_unit_test(shared_images_follow_their_texels),
         cmocka_unit_test(surfaces_without_maps_mark_nothing),
