@@ -389,6 +389,36 @@ static void as_many_facets_mirror_as_are_level(void **state) {
     }
 }
 
+/// Half metal, under one sun.
+static double half_metal_under_sun(fixture *f, const char *filter, relief_height height,
+                                   const double outgoing[3], const double incoming[3],
+                                   uint32_t samples) {
+    lobe_material material = metal(0.35);
+    material.metallic = 0.5f;
+    lobe_scene *scene = relief_plane(&material, relief_map(WIDTH, HEIGHT, height), outgoing, 40);
+    relief_plane_add_sun(scene, incoming, 1);
+    const double radiance = relief_plane_draw(f, scene, filter, NULL, samples);
+    lobe_scene_destroy(&scene);
+    return radiance;
+}
+
+/// Light that one facet mirrors and another reflects diffusely reaches the viewer, too. Measured:
+/// off by 0.09 and 0.05; by 0.13 and 0.10 without it.
+static void half_metal_sends_light_on(void **state) {
+    static const relief_height heights[] = {rough, domes};
+    static const double bounds[] = {0.11, 0.07};
+    for (int i = 0; i < 2; i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(30, 0.3, outgoing);
+        slope_plane_direction(40, 0.3 + 5 * M_PI / 6, incoming);
+        const double found = half_metal_under_sun(*state, "displaced", heights[i], outgoing,
+                                                  incoming, 64),
+                     expected = half_metal_under_sun(*state, "displaced-reference", heights[i],
+                                                     outgoing, incoming, 8192);
+        check(found, expected, bounds[i] * expected, "half metal", 40);
+    }
+}
+
 static double metal_under_sky(fixture *f, const char *filter, double roughness,
                               relief_height height, const double outgoing[3], uint32_t samples) {
     lobe_material material = metal(roughness);
@@ -748,6 +778,7 @@ int main(void) {
         cmocka_unit_test(a_level_map_mirrors_as_its_material),
         cmocka_unit_test(highlights_are_those_of_the_facets),
         cmocka_unit_test(as_many_facets_mirror_as_are_level),
+        cmocka_unit_test(half_metal_sends_light_on),
         cmocka_unit_test(metal_reflects_as_much_as_the_reference),
         cmocka_unit_test(a_level_map_mirrors_the_sky_as_its_material),
         cmocka_unit_test(shallow_metal_loses_no_light),
