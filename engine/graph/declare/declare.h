@@ -57,6 +57,10 @@ lobe_result engine_graph_resolve_bindings(lobe_graph *graph);
 /// In which a resource of the host is returned after the frame. `stages`: in which the host uses it
 /// next; 0: any use is assumed.
 engine_access_state engine_graph_returned_state(uint64_t stages, uint64_t access);
+/// The stamp of what a host lends: of `size` bytes of numbers that say which object and `content`
+/// it is, or, where the host does not number its content, another one in every frame.
+engine_stamp engine_graph_lent_content(const lobe_graph *graph, uint64_t content,
+                                       const uint64_t *numbers, size_t size);
 
 /// Checks that host images were created for what passes do with them (host_image.c).
 lobe_result engine_graph_check_host_images(lobe_graph *graph);

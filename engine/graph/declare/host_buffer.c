@@ -38,12 +38,10 @@ static bool check_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer, co
     return graph->frame.result == LOBE_OK;
 }
 
-/// Where the host does not say which content it has, a new stamp in every frame.
 static engine_stamp content_of(const lobe_graph *graph, const lobe_vulkan_buffer *buffer) {
     const uint64_t numbers[] = {ENGINE_GRAPH_HOST_BUFFER, (uint64_t)(uintptr_t)buffer->buffer,
                                 buffer->content, buffer->offset, buffer->size};
-    return buffer->content ? engine_stamp_bytes(ENGINE_STAMP_NONE, numbers, sizeof numbers)
-                           : engine_device_stamp(graph->device);
+    return engine_graph_lent_content(graph, buffer->content, numbers, sizeof numbers);
 }
 
 lobe_resource lobe_graph_import_host_buffer(lobe_graph *graph, const lobe_vulkan_buffer *buffer) {

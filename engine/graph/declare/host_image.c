@@ -35,15 +35,13 @@ static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const
     return graph->frame.result == LOBE_OK;
 }
 
-/// Where the host does not say which content it has, a new stamp in every frame.
 static engine_stamp content_of(const lobe_graph *graph, const engine_graph_resource *resource) {
     const lobe_vulkan_image *image = resource->host;
     const uint64_t numbers[] = {ENGINE_GRAPH_HOST_IMAGE, (uint64_t)(uintptr_t)image->image,
                                 image->content,          resource->format,
                                 resource->width,         resource->height,
                                 resource->layers,        resource->levels};
-    return image->content ? engine_stamp_bytes(ENGINE_STAMP_NONE, numbers, sizeof numbers)
-                          : engine_device_stamp(graph->device);
+    return engine_graph_lent_content(graph, image->content, numbers, sizeof numbers);
 }
 
 lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image *image) {

@@ -138,6 +138,12 @@ engine_access_state engine_graph_returned_state(uint64_t stages, uint64_t access
         .layout = ENGINE_LAYOUT_RETURNED};
 }
 
+engine_stamp engine_graph_lent_content(const lobe_graph *graph, uint64_t content,
+                                       const uint64_t *numbers, size_t size) {
+    return content ? engine_stamp_bytes(ENGINE_STAMP_NONE, numbers, size)
+                   : engine_device_stamp(graph->device);
+}
+
 static engine_stamp identity_of(const engine_graph_resource *resource) {
     engine_stamp stamp = engine_stamp_mix(ENGINE_STAMP_NONE, resource->is_image);
     const uint64_t numbers[] = {resource->format, resource->width,  resource->height,

@@ -171,9 +171,10 @@ void lobe_graph_forget_buffer(lobe_graph *graph, const char *name) {
 // What settles
 
 /// Whether the device has said that the content rests, and nothing else has changed since.
-static bool rests(const lobe_graph *graph, const engine_graph_retained *kept) {
+/// `pending`: set to whether its answer is still to come; NULL is allowed.
+static bool rests(const lobe_graph *graph, const engine_graph_retained *kept, bool *pending) {
     uint32_t answer = 0;
-    const char *content = kept->asked ? lobe_graph_late_data(graph, kept->asked, NULL) : NULL;
+    const char *content = kept->asked ? lobe_graph_late_data(graph, kept->asked, pending) : NULL;
     if (content)
         memcpy(&answer, content + kept->rest_offset, sizeof answer);
     return kept->settled.rests || (answer == 1 && kept->settled.change == kept->asked_change);
@@ -181,9 +182,7 @@ static bool rests(const lobe_graph *graph, const engine_graph_retained *kept) {
 
 void engine_graph_hear_of_rest(const lobe_graph *graph, engine_graph_retained *kept) {
     bool pending = false;
-    if (kept->asked)
-        (void)lobe_graph_late_data(graph, kept->asked, &pending);
-    kept->settled.rests = rests(graph, kept);
+    kept->settled.rests = rests(graph, kept, &pending);
     if (!pending)
         kept->asked = 0;
 }
@@ -194,7 +193,7 @@ static bool settles(const engine_graph_retained *kept) {
 
 bool lobe_graph_settles(const lobe_graph *graph) {
     const engine_graph_retained *kept = graph ? graph->kept.retained : NULL;
-    while (kept && !(kept->declared && settles(kept) && !rests(graph, kept)))
+    while (kept && !(kept->declared && settles(kept) && !rests(graph, kept, NULL)))
         kept = kept->next;
     return kept != NULL;
 }
