@@ -152,7 +152,7 @@ static void build_moments_and_tables(const filter_context *context, environment_
     }
 }
 
-/// A placeholder cube for methods that use none.
+/// A placeholder for methods that use none.
 static lobe_resource no_harmonics(lobe_graph *graph) {
     struct irradiance_harmonics none = {0};
     return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);

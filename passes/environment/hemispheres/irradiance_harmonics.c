@@ -6,6 +6,9 @@
 
 #include "shaders/interface/environment/irradiance_harmonics.h"
 
+/// Texels along a face of the level that is projected, at most.
+#define FINEST_WIDTH 64
+
 /// Ramamoorthi, Hanrahan 2001, Eq. 8: the clamped cosine's factor of degree l.
 static const double cosine_factor[3] = {M_PI, 2 * M_PI / 3, M_PI / 4};
 
@@ -41,13 +44,6 @@ double passes_harmonics_window(double window) {
             high = middle;
     }
     return high;
-}
-
-static uint32_t level_to_read(const irradiance_source *source) {
-    uint32_t level = 0;
-    while (source->size >> level > 64 && level + 1 < source->levels)
-        ++level;
-    return level;
 }
 
 /// What a von Mises-Fisher lobe of a large concentration leaves of degree l: Mardia, Jupp 2000,
@@ -98,7 +94,7 @@ static lobe_resource add_remainder(lobe_graph *graph, lobe_resource harmonics,
 
 lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
                                           const environment_means *means, double window) {
-    uint32_t level = level_to_read(&source);
+    uint32_t level = passes_irradiance_source_level(&source, FINEST_WIDTH);
     struct irradiance_harmonics_constants constants = {source.size >> level};
     uint32_t texels = 6 * constants.size * constants.size;
     uint32_t groups = (texels + HARMONICS_GROUP_TEXELS - 1) / HARMONICS_GROUP_TEXELS;

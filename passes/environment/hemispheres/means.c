@@ -6,7 +6,7 @@
 /// that they hardly blur integrals over hemispheres.
 #define FINEST_WIDTH 256
 
-static uint32_t level_of_at_most(const irradiance_source *source, uint32_t width) {
+uint32_t passes_irradiance_source_level(const irradiance_source *source, uint32_t width) {
     uint32_t level = 0;
     while (source->size >> level > width && level + 1 < source->levels)
         ++level;
@@ -34,8 +34,8 @@ static lobe_resource reduced_copy(lobe_graph *graph, const irradiance_source *so
 }
 
 environment_means passes_environment_means(lobe_graph *graph, const irradiance_source *source) {
-    const uint32_t level =
-        level_of_at_most(source, source->filtered ? FINEST_WIDTH : ENVIRONMENT_MEANS_SIZE);
+    const uint32_t level = passes_irradiance_source_level(
+        source, source->filtered ? FINEST_WIDTH : ENVIRONMENT_MEANS_SIZE);
     environment_means means = {source->cube, level, source->size >> level};
     if (means.size <= ENVIRONMENT_MEANS_SIZE)
         return means;

@@ -15,6 +15,9 @@ typedef struct irradiance_source {
     bool filtered;
 } irradiance_source;
 
+/// The first level whose faces are at most `width` texels wide; the last one if there is none.
+uint32_t passes_irradiance_source_level(const irradiance_source *source, uint32_t width);
+
 /// A level of a cube that holds mean radiances of texels of 3 degrees, or wider ones.
 typedef struct environment_means {
     lobe_resource cube;
