@@ -10,7 +10,7 @@
 #include "passes/renderer/deform.h"
 #include "passes/upload/device_scene.h"
 #include "scenes/builtin/random.h"
-#include "tests/engine/support/host_device.h"
+#include "tests/passes/host/host_renderer.h"
 #include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
@@ -414,10 +414,8 @@ static void submit(lobe_renderer *renderer, const host_device *host, const host_
 static void frames_in_flight_have_their_own_poses(void **state) {
     (void)state;
     host_device host;
-    host_device_open(&host);
-    lobe_device *device = host_device_import(&host);
-    lobe_renderer *renderer;
-    assert_int_equal(lobe_renderer_create(device, &host.recorder.host, &renderer), LOBE_OK);
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
     lobe_scene *scene = deformed_ball(&cases[5]);
     assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
     host_image images[2][FRAMES];

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/engine/support/host_device.h"
+#include "tests/passes/host/host_renderer.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -393,10 +393,8 @@ static void images_of_the_hosts_vulkan_are_maps(void **state) {
     static const float normal[4] = {0.7f, 0.4f, 0.9f, 1};
     (void)state;
     host_device host;
-    host_device_open(&host);
-    lobe_device *device = host_device_import(&host);
-    lobe_renderer *renderer;
-    assert_int_equal(lobe_renderer_create(device, &host.recorder.host, &renderer), LOBE_OK);
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
     lobe_scene *scene = mapped_scene(370);
     for (size_t i = 0; i < (size_t)MAP * MAP; i++)
         memcpy((float *)scene->images[0].image.texels + 4 * i, normal, sizeof normal);
@@ -482,10 +480,8 @@ static void images_whose_content_stays_are_filtered_once(void **state) {
     static const float slopes[] = {0.2f, -0.2f, 0.2f};
     (void)state;
     host_device host;
-    host_device_open(&host);
-    lobe_device *device = host_device_import(&host);
-    lobe_renderer *renderer;
-    assert_int_equal(lobe_renderer_create(device, &host.recorder.host, &renderer), LOBE_OK);
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
     lobe_scene *scene = mapped_scene(375);
     scene->images[0].on_device = true;
     assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);

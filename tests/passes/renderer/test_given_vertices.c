@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "tests/engine/support/host_device.h"
+#include "tests/passes/host/host_renderer.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -146,10 +146,8 @@ static void buffers_of_the_hosts_vulkan_are_meshes(void **state) {
     enum { FIRST = 1024 }; // bytes before the vertices
     (void)state;
     host_device host;
-    host_device_open(&host);
-    lobe_device *device = host_device_import(&host);
-    lobe_renderer *renderer;
-    assert_int_equal(lobe_renderer_create(device, &host.recorder.host, &renderer), LOBE_OK);
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
     lobe_scene *scene = ball(0.3f);
     host_image picture =
         host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, EXTENT, EXTENT,
