@@ -440,12 +440,21 @@ reflected_light reflect_channels(polynomials red, polynomials green, polynomials
                                 product(form.blue.indirect, blue)), vec3(0.0));
 }
 
+// Of a white sky, light between facets; of reliefs with colours, with these.
+vec3 indirect_of_white_sky() {
+    polynomials integrals = integrals_of_polynomials();
+    float red = product(integrals, drawn.form.red.indirect);
+    return COLOURED ? vec3(red, product(integrals, drawn.form.green.indirect),
+                           product(integrals, drawn.form.blue.indirect))
+                    : vec3(red);
+}
+
 // `over_lobe`: the mean of light over the lobe that smooth facets send on.
 vec3 light_sent_on(vec3 indirect, vec3 over_lobe) {
     if (!FACETS)
         return indirect;
-    float of_white = product(integrals_of_polynomials(), drawn.form.red.indirect);
-    return mix(indirect, max(of_white, 0.0) * over_lobe, drawn.sent_on.share);
+    return mix(indirect, max(indirect_of_white_sky(), vec3(0.0)) * over_lobe,
+               drawn.sent_on.share);
 }
 
 reflected_light reflect_light(vec3 incoming) {
@@ -467,9 +476,22 @@ vec3 mirrored_part(base_material base) {
     return clamp(albedo, 0.0, 1.0);
 }
 
+// What counts as a diffuse colour where colours vary (facet_colours.comp), and what mirrors then
+// above it: the rest of Schlick's Fresnel term has no colour of its own.
+vec3 diffuse_colour_of(base_material base) {
+    return MODEL == MODEL_MICROFACET ? base.diffuse * (1.0 - base.specular) : base.diffuse;
+}
+
+vec3 mirrored_above_diffuse(vec3 specular) {
+    return COLOURED ? vec3(0.0) : specular;
+}
+
 // By how much the colours of what a pixel sees differ from those that are in the map of transfer:
 // those of the vertices, and, where a pixel is smaller than its texels, of the material's maps.
 vec3 tint_of(base_material base, surface_point surface) {
+    vec3 colour = diffuse_colour_of(base);
+    if (NEAR && drawn.near.share > 0.0)
+        colour = mix(colour, diffuse_colour_of(drawn.near.base), drawn.near.share);
     vec3 tint = VERTEX_COLOUR ? surface.colour.rgb : vec3(1.0);
     if (!MAGNIFIED)
         return tint;
@@ -477,27 +499,40 @@ vec3 tint_of(base_material base, surface_point surface) {
                             map_coordinates(MAP_HEIGHT, surface.coordinates_dx, 0.0),
                             map_coordinates(MAP_HEIGHT, surface.coordinates_dy, 0.0),
                             transfer_size(), true).level;
-    vec3 found = (base.diffuse + 0.01) / (tint * drawn.colour + 0.01);
+    vec3 found = (colour + 0.01) / (tint * drawn.colour + 0.01);
     return tint * mix(min(found, 4.0), vec3(1.0), min(level, 1.0));
+}
+
+// What two facets reflect of light between them: both diffusely, or one of them, or none.
+vec3 between_facets(vec3 albedo, reflected_light reflected) {
+    vec3 mirrored = drawn.mirrored;
+    return albedo * (albedo + (1.0 + drawn.mirrored_on) * mirrored) * reflected.indirect +
+           drawn.mirrored_on * mirrored * mirrored * reflected.sent_on;
+}
+
+// Where colours vary, light between facets has them already: as if all were diffuse, and metal
+// mirrored as much as at right angles.
+vec3 squared_colours(vec3 specular) {
+    vec3 all = drawn.colour + specular;
+    return max(all * all, vec3(1e-4));
 }
 
 // Radiance of diffuse facets. `passed`: the part of light that is not mirrored.
 vec3 diffuse_radiance(base_material base, vec3 passed, surface_point surface,
                       reflected_light reflected) {
-    if (NEAR && drawn.near.share > 0.0)
-        base.diffuse = mix(base.diffuse, drawn.near.base.diffuse, drawn.near.share);
     vec3 sum;
     if (COLOURED) {
-        vec3 tint = tint_of(base, surface);
-        sum = tint * (passed * reflected.direct + tint * reflected.indirect);
+        vec3 tint = tint_of(base, surface), indirect = reflected.indirect;
+        if (FACETS)
+            indirect = between_facets(drawn.colour, reflected) / squared_colours(base.specular);
+        sum = tint * (passed * reflected.direct + tint * indirect);
     } else {
-        vec3 albedo = clamp(base.diffuse * passed, 0.0, 1.0), mirrored = drawn.mirrored;
-        // Both facets diffuse, or one of them, or none.
-        vec3 diffuse = albedo * (albedo + (1.0 + drawn.mirrored_on) * mirrored);
-        sum = albedo * reflected.direct +
-              indirect_share(min(albedo + mirrored, 1.0)) *
-                  (diffuse * reflected.indirect +
-                   drawn.mirrored_on * mirrored * mirrored * reflected.sent_on);
+        vec3 diffuse_colour = base.diffuse;
+        if (NEAR && drawn.near.share > 0.0)
+            diffuse_colour = mix(diffuse_colour, drawn.near.base.diffuse, drawn.near.share);
+        vec3 albedo = clamp(diffuse_colour * passed, 0.0, 1.0);
+        sum = albedo * reflected.direct + indirect_share(min(albedo + drawn.mirrored, 1.0)) *
+                                              between_facets(albedo, reflected);
     }
     return max(sum, 0.0);
 }
@@ -729,7 +764,8 @@ void find_horizons(mirroring_bins bins, float width, out float horizons[FACET_BI
 // reflect at once.
 void find_mirrored_on(base_material base, mirroring_bins bins) {
     float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
-    float diffuse = product(integrals_of_polynomials(), drawn.form.red.indirect);
+    vec3 one = vec3(1.0), colours = COLOURED ? squared_colours(base.specular) : one;
+    float diffuse = dot(indirect_of_white_sky(), one) / dot(colours, one);
     drawn.mirrored = mirrored_part(base);
     drawn.mirrored_on = min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
     drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0,
@@ -778,17 +814,18 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         return evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
     if (incoming.z <= 0.0)
         return vec3(0.0);
-    vec3 lobes, fresnel = vec3(0.0);
+    vec3 lobes, above_diffuse = vec3(0.0);
     if (FACETS) {
-        fresnel = fresnel_schlick(base.specular, vec3(1.0),
-                                  dot(incoming, half_vector(incoming, surface.outgoing)));
+        float cosine = dot(incoming, half_vector(incoming, surface.outgoing));
+        vec3 fresnel = fresnel_schlick(base.specular, vec3(1.0), cosine);
+        above_diffuse = fresnel_schlick(mirrored_above_diffuse(base.specular), vec3(1.0), cosine);
         lobes = mirrored_by_facets(fetched.base, fresnel, surface.outgoing, incoming, light);
     } else {
         base_material mirroring = base;
         mirroring.diffuse = vec3(0.0);
         lobes = evaluate_base_material(mirroring, fetched.mean_normal, surface.outgoing, incoming);
     }
-    vec3 of_cells = diffuse_radiance(base, 1.0 - fresnel, surface, reflect_light(incoming));
+    vec3 of_cells = diffuse_radiance(base, 1.0 - above_diffuse, surface, reflect_light(incoming));
     if (!NEAR || drawn.near.share == 0.0)
         return lobes + of_cells;
     return (1.0 - drawn.near.share) * lobes + of_cells +
@@ -851,6 +888,7 @@ vec3 reflect_environment(appearance fetched, surface_point surface) {
         return reflect_base_material(surface, base, fetched.mean_normal);
     base_material white = base;
     white.diffuse = vec3(1.0);
+    white.specular = mirrored_above_diffuse(base.specular);
     polynomials light[3];
     light_of_environment(surface, light);
     gather_relief(surface, true);

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The colours of each facet (interface/displacement/relief.h): of what it reflects diffusely, and
-// of all that it reflects, which counts between facets. The maps lie on the relief as its heights
+// The colours of each facet (interface/displacement/relief.h): of what it reflects diffusely below
+// what it mirrors at right angles, since metal mirrors most where nothing is diffuse, and of all
+// that it reflects, which counts between facets. The maps lie on the relief as its heights
 // do. One thread a facet.
 
 #include "interface/displacement/relief.h"
@@ -34,8 +35,9 @@ facet_colours colours_at(vec2 point) {
     if (METALLIC_MAP)
         metallic *= base_texel(width_map, point).b;
     // glTF 2.0, appendix B.2.
-    vec3 mirrored = mix(vec3(DIELECTRIC_F0), albedo, metallic), diffuse = albedo * (1.0 - metallic);
-    return facet_colours(diffuse, mirrored + diffuse * (1.0 - mirrored));
+    vec3 mirrored = mix(vec3(DIELECTRIC_F0), albedo, metallic);
+    vec3 diffuse = albedo * (1.0 - metallic) * (1.0 - mirrored);
+    return facet_colours(diffuse, mirrored + diffuse);
 }
 
 // The middle of part `i` of `points` * `points` triangles that the facet below the diagonal is

@@ -61,9 +61,10 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 // then n               mean a b: the area that is seen from each direction, over that of the cell
 //
 // Where the diffuse colour varies over the relief, so do these, for red, green and blue, each from
-// a layer of its own on; the seen area is red's. C = mean s a b b^T / pi with the diffuse colour s,
-// N has a factor r, all that a facet reflects, and o is of light that is multiplied by r at each
-// facet. What has met one other facet is the mean of s instead.
+// a layer of its own on; the seen area is red's. C = mean s a b b^T / pi with the diffuse colour s
+// below what the facet mirrors at right angles, N has a factor r, all that a facet reflects, and o
+// is of light that is multiplied by r at each facet. What has met one other facet is the mean of s
+// instead.
 #define TRANSFER_MAXIMUM_ORDER  9
 #define TRANSFER_BASIS_TERMS    16 // polynomials that a function is a sum of
 #define TRANSFER_INDIRECT       4
