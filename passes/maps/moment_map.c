@@ -32,12 +32,6 @@ lobe_format passes_bin_format(const filter_context *context) {
     return formats[(int)passes_knob_choice(context, &passes_knob_bin_storage)];
 }
 
-bool passes_bins_may_have_colours(const device_material *material) {
-    return passes_lies_under_lobes(material, MAP_BASE_COLOUR) &&
-           passes_lies_under_lobes(material, MAP_SPECULAR) &&
-           passes_lies_under_lobes(material, MAP_WIDTH);
-}
-
 bool passes_bin_widths_vary(const device_material *material) {
     const lobe_material *source = material->material;
     bool vary = material->maps[MAP_WIDTH].use != NULL;

@@ -22,9 +22,6 @@ extern const filter_knob passes_knob_least_share, passes_knob_bin_storage;
 /// The format of the map that the knob "storage" selects.
 lobe_format passes_bin_format(const filter_context *context);
 
-/// Whether the maps of specular colour lie under the lobes', so that bins can have their own.
-bool passes_bins_may_have_colours(const device_material *material);
-
 /// Layers of a map of the material's lobes in bins.
 uint32_t passes_bin_layers(const device_material *material, uint32_t bins, bool own_colours);
 

@@ -60,12 +60,11 @@ static uint32_t end_digest(const tile_marks *marks, uint32_t digest, bool given)
 }
 
 /// The factors of a material's colours, which its version ignores, where lobes may have colours of
-/// their own or count by what they mirror.
+/// their own or count by what they mirror: by a map of metal wherever its colours lie (base lobes).
 static uint32_t mix_colours(uint32_t digest, const device_material *material) {
     const struct material_constants *values = &material->values;
-    const bool vary = material->metallic_varies || material->maps[MAP_BASE_COLOUR].use ||
-                      material->maps[MAP_SPECULAR].use;
-    if (!vary || !passes_lies_under_lobes(material, MAP_BASE_COLOUR))
+    const bool coloured = material->maps[MAP_BASE_COLOUR].use || material->maps[MAP_SPECULAR].use;
+    if (!material->metallic_varies && !(coloured && passes_colours_lie_under_lobes(material)))
         return digest;
     digest = mix(digest, &values->base_colour, sizeof values->base_colour);
     digest = mix(digest, &values->metallic, sizeof values->metallic);

@@ -151,6 +151,12 @@ bool passes_lies_under_lobes(const device_material *material, uint32_t map) {
                          passes_lobe_grid_shares_coordinates(material, map));
 }
 
+bool passes_colours_lie_under_lobes(const device_material *material) {
+    return passes_lies_under_lobes(material, MAP_BASE_COLOUR) &&
+           passes_lies_under_lobes(material, MAP_SPECULAR) &&
+           passes_lies_under_lobes(material, MAP_WIDTH);
+}
+
 static float channel(const lobe_image *image, const unsigned char *texel, uint32_t index) {
     uint16_t word;
     float number;

@@ -55,6 +55,8 @@ bool passes_lobes_are_masked(const device_material *material);
 bool passes_mask_cuts_texels(const device_material *material);
 /// Whether a map of a material, if it has that, lies as the grid does, and is no finer.
 bool passes_lies_under_lobes(const device_material *material, uint32_t map);
+/// Whether all maps of specular colour do, so that lobes can have colours of their own.
+bool passes_colours_lie_under_lobes(const device_material *material);
 
 /// Reads a texel on the host as the device would, except that sRGB is not decoded: missing channels
 /// are 0, alpha is 1. False for formats that no map of lobes has (half floats, sRGB, depth), and

@@ -75,7 +75,7 @@ static const filter_knob *const knobs[] = {
 static bool has_own_colours(const filter_context *context, const device_material *material) {
     enum { AUTOMATIC, MEAN, OWN };
     const uint32_t choice = passes_knob_choice(context, &colour_knob);
-    if (choice == MEAN || !passes_bins_may_have_colours(material))
+    if (choice == MEAN || !passes_colours_lie_under_lobes(material))
         return false;
     return choice == OWN || passes_specular_colour_varies(material);
 }

@@ -110,7 +110,7 @@ static const filter_knob *const knobs[] = {
 /// Bins can have their own specular colour only if its maps lie under the lobes'.
 static bin_colour colour_of_bins(const filter_context *context, const device_material *material) {
     static const bin_colour wanted[] = {BIN_COLOUR_AUTOMATIC, BIN_COLOUR_MEAN, BIN_COLOUR_OWN};
-    return passes_bins_may_have_colours(material)
+    return passes_colours_lie_under_lobes(material)
                ? wanted[passes_knob_choice(context, &colour_knob)]
                : BIN_COLOUR_MEAN;
 }

@@ -391,13 +391,14 @@ static void tiles_follow_what_they_are_made_from(void **state) {
     lobe_scene_destroy(&scene);
 }
 
-/// A metal whose colours lie as its lobes do: their texels count by what they mirror.
-static lobe_scene *coloured_metal(void) {
+/// A metal whose colours lie as its lobes do, if they have as few texels (128): these count by what
+/// they mirror. Of colours with more texels than lobes, only metal counts.
+static lobe_scene *coloured_metal(uint32_t colours) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 1);
     material.normal_map = scene_add_map(scene, random_normal_map(128, 128, 0.5, 7));
     material.metallic_roughness_map = scene_add_map(scene, random_map(128, 128, 0.3, 0.9, 8));
-    material.base_colour_map = scene_add_map(scene, random_map(128, 128, 0.02, 0.9, 9));
+    material.base_colour_map = scene_add_map(scene, random_map(colours, colours, 0.02, 0.9, 9));
     scene_add_square(scene, &material, 1, NULL);
     scene_add_sun(scene, (double[]){0.3, 1, 0.2}, 2);
     scene_look_from(scene, views[0].towards, views[0].height);
@@ -409,13 +410,15 @@ static lobe_scene *coloured_metal(void) {
 /// maps, that were made with others give the pictures of a scene that is set anew.
 static void tiles_follow_factors(void **state) {
     enum { CHANGES = 3, WAYS = 3 };
-    static const char *const filters[] = {"moments", "lobes"};
-    static const char *const settings[][2] = {{"refit=anew"}, {NULL}};
+    static const struct {
+        const char *filter, *settings[2];
+        uint32_t colours;
+    } cases[] = {{"moments", {"refit=anew"}, 128}, {"lobes", {NULL}, 128}, {"leadr", {NULL}, 256}};
     static const uint32_t first = 0;
     const lobe_scene_changes changes = {.materials = &first, .material_count = 1};
     fixture *f = *state;
-    for (size_t n = 0; n < sizeof filters / sizeof *filters; n++) {
-        lobe_scene *scene = coloured_metal();
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        lobe_scene *scene = coloured_metal(cases[n].colours);
         lobe_material *material = &scene->materials[0];
         lobe_frame frames[WAYS][CHANGES];
         for (int way = 0; way < WAYS; way++) {
@@ -430,11 +433,11 @@ static void tiles_follow_factors(void **state) {
                                      ? lobe_renderer_set_scene(f->renderer, scene)
                                      : lobe_renderer_update_scene(f->renderer, &changes),
                                  LOBE_OK);
-                frames[way][i] = picture(f, scene, filters[n], settings[n], way == 1);
+                frames[way][i] = picture(f, scene, cases[n].filter, cases[n].settings, way == 1);
             }
         }
         for (int i = 0; i < WAYS * CHANGES; i++)
-            check_equal(&frames[i / CHANGES][i % CHANGES], &frames[2][i % CHANGES], filters[n],
+            check_equal(&frames[i / CHANGES][i % CHANGES], &frames[2][i % CHANGES], cases[n].filter,
                         (size_t)i);
         for (int i = 0; i < WAYS * CHANGES; i++)
             lobe_frame_free(&frames[i / CHANGES][i % CHANGES]);
