@@ -152,10 +152,10 @@ static void build_moments_and_tables(const filter_context *context, environment_
     }
 }
 
-/// A placeholder for methods that use none.
+/// A placeholder for methods that use none, without a remainder.
 static lobe_resource no_harmonics(lobe_graph *graph) {
-    struct irradiance_harmonics none = {0};
-    return lobe_graph_upload(graph, "no harmonics", &none, sizeof none);
+    static const float none[HARMONICS][4] = {{0}};
+    return lobe_graph_upload(graph, "no harmonics", none, sizeof none);
 }
 
 /// Texels along a face of the cube.

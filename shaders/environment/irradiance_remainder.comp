@@ -3,11 +3,12 @@
 
 // Third step: what nine harmonics miss of the irradiance, for each normal of a map. Of lamps that
 // stand at a surface's horizon they miss up to a tenth of the lamps' peak, and a floor among such
-// lamps was a fifth too bright. The sum over the texels of a cube, each a light in the direction of
-// its centre.
+// lamps was a fifth too bright. And how the light near each normal's horizon is shared between
+// above and below. Sums over the texels of a cube, each a light in the direction of its centre.
 
 #include "interface/environment/irradiance_harmonics.h"
 #include "lib/light/cube_texel.glsl"
+#include "lib/light/luminance.glsl"
 #include "lib/light/octahedron.glsl"
 #include "lib/light/spherical_harmonics.glsl"
 
@@ -21,14 +22,15 @@ layout(push_constant) uniform constants_block { irradiance_remainder_constants c
 
 // Texels of the cube that the group adds next.
 shared vec4 directions[GROUP]; // w: solid angle
-shared vec3 powers[GROUP];     // radiance times solid angle
+shared vec4 powers[GROUP];     // radiance times solid angle; w: its luminance
 
 void load_texel(int index, int size) {
     int own = int(gl_LocalInvocationID.x), face = index / (size * size);
     ivec2 texel = ivec2(index % size, index / size % size);
     float angle = face < 6 ? cube_texel_solid_angle(texel, size) : 0.0;
     directions[own] = vec4(cube_texel_direction(min(face, 5), texel, size), angle);
-    powers[own] = angle * texelFetch(environment, ivec3(texel, min(face, 5)), 0).rgb;
+    vec3 power = angle * texelFetch(environment, ivec3(texel, min(face, 5)), 0).rgb;
+    powers[own] = vec4(power, lobe_luminance(power));
 }
 
 void main() {
@@ -36,19 +38,25 @@ void main() {
     int index = int(gl_GlobalInvocationID.x), size = int(constants.size);
     vec3 normal = octahedron_texel_direction(ivec2(index % width, index / width),
                                              HARMONICS_REMAINDER_SIZE);
-    vec4 sum = vec4(0.0); // w: of uniform light, whose sum is pi but for the cube's texels
+    vec4 sum = vec4(0.0);     // w: of uniform light, whose sum is pi but for the cube's texels
+    vec2 horizon = vec2(0.0); // luminance below, and in all
     for (int first = 0; first < 6 * size * size; first += GROUP) {
         barrier();
         load_texel(first + int(gl_LocalInvocationID.x), size);
         barrier();
-        for (int i = 0; i < GROUP; ++i)
-            sum += max(dot(normal, directions[i].xyz), 0.0) *
-                   vec4(powers[i], directions[i].w);
+        for (int i = 0; i < GROUP; ++i) {
+            float cosine = dot(normal, directions[i].xyz);
+            sum += max(cosine, 0.0) * vec4(powers[i].rgb, directions[i].w);
+            float near = max(1.0 - abs(cosine) / HARMONICS_HORIZON_SINE, 0.0) * powers[i].w;
+            // Texels at the horizon, 0.05 wide, are on both sides.
+            horizon += near * vec2(clamp(0.5 - 20.0 * cosine, 0.0, 1.0), 1.0);
+        }
     }
     if (index >= width * width)
         return;
     vec3 known = harmonic_irradiance_by_degree(harmonics.coefficients, normal, 1.0, 1.0);
     vec3 irradiance = PI / sum.w * sum.rgb;
+    vec3 remainder = constants.is_zero != 0u ? vec3(0.0) : irradiance - known;
     harmonics.remainder[index] =
-        constants.is_zero != 0u ? vec4(0.0) : vec4(irradiance - known, 0.0);
+        vec4(remainder, horizon.y > 0.0 ? horizon.x / horizon.y : 0.5);
 }

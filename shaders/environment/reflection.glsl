@@ -17,7 +17,7 @@ vec3 let_through(surface_point surface, base_material base) {
 }
 
 vec3 reflect_lambert(surface_point surface, base_material base, vec3 mean_normal) {
-    return let_through(surface, base) * irradiance_above(surface, mean_normal);
+    return let_through(surface, base) * lambert_irradiance(surface, mean_normal);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -11,10 +11,15 @@
 #define HARMONICS_REMAINDER_SIZE  32
 #define HARMONICS_REMAINDER_WIDTH 34
 
+// Light counts as near a horizon by 1 - |s|/0.8, s the sine of its height. The width of what
+// slopes of 0.3 to 0.6 root mean square hide or see (found in four environments and the sky).
+#define HARMONICS_HORIZON_SINE 0.8f
+
 // Irradiance from all directions, as harmonics; the shading pass reads this buffer directly.
 struct irradiance_harmonics {
     float4 coefficients[HARMONICS]; // RGB, W/m^2 where the radiance is W/(m^2 sr); w: 0
-    // By normal, row by row: irradiance less its harmonics. Zero where harmonics are windowed.
+    // By normal, row by row: irradiance less its harmonics, zero where harmonics are windowed; w:
+    // of the light near the normal's horizon, the share that comes from below it.
     float4 remainder[HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH];
 };
 INTERFACE_SIZE(irradiance_harmonics, 18640)
@@ -43,7 +48,7 @@ INTERFACE_OFFSET(irradiance_harmonics_sum_constants, count, 16)
 // Push constants of irradiance_remainder.
 struct irradiance_remainder_constants {
     uint size;    // texels along a face's edge
-    uint is_zero; // leave no remainder
+    uint is_zero; // leave no remainder of irradiance
 };
 INTERFACE_SIZE(irradiance_remainder_constants, 8)
 

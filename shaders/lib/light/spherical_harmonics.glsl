@@ -70,6 +70,17 @@ vec3 harmonic_irradiance_from_below(vec4 coefficients[HARMONICS], vec3 mean_norm
     return max(constant + INVERSE_PI * linear + 0.5 * quadratic, vec3(0.0));
 }
 
+// The integral of <a, w> over directions w above a horizon, <u, w> > 0, `up` = u, a of any length:
+// by so much the irradiance of a surface that faces u grows as u moves by a, and it is homogeneous,
+//   E(u) = |u| E_0 + E_1(u) + E_2(u)/|u|.
+vec3 harmonic_light_along(vec4 coefficients[HARMONICS], vec3 a, vec3 up) {
+    float cosine = dot(a, up);
+    return cosine * 0.282094791773878143 * coefficients[0].rgb + linear_harmonics(coefficients, a) +
+           0.5 * (quadratic_harmonics(coefficients, up + a) -
+                  quadratic_harmonics(coefficients, up - a)) -
+           cosine * quadratic_harmonics(coefficients, up);
+}
+
 // Mean irradiance of surfaces whose normals have the mean r mu, 0 <= r <= 1, and are distributed
 // about mu as von Mises-Fisher. A convolution with such a distribution multiplies degree l by
 // its own coefficient (Funk, Hecke; Ramamoorthi, Hanrahan, 2001, On the Relationship between

@@ -403,6 +403,23 @@ static double irradiance_at(const host_cube *cube, const double normal[3]) {
     return M_PI * sum / whole;
 }
 
+/// Of the light near a normal's horizon, the share from below it.
+static double share_below(const host_cube *cube, const double normal[3]) {
+    double below = 0, all = 0;
+    for (int i = 0; i < 6 * cube->size * cube->size; i++) {
+        const int x = i % cube->size, y = i / cube->size % cube->size;
+        double direction[3];
+        reference_cube_texel_direction(i / (cube->size * cube->size), x, y, cube->size, direction);
+        const double height = reference_dot(normal, direction);
+        const double part = fmax(1 - fabs(height) / (double)HARMONICS_HORIZON_SINE, 0) *
+                            reference_cube_texel_solid_angle(x, y, cube->size) *
+                            (double)cube->texels[4 * i];
+        below += part * fmin(fmax(0.5 - 20 * height, 0), 1);
+        all += part;
+    }
+    return below / all;
+}
+
 /// Harmonics and what they miss are the irradiance. With a window nothing is added to them.
 static void the_remainder_is_what_harmonics_miss(void **state) {
     enum { WIDTH = HARMONICS_REMAINDER_WIDTH };
@@ -421,6 +438,7 @@ static void the_remainder_is_what_harmonics_miss(void **state) {
         const double expected = irradiance_at(&cube, normal);
         const double harmonics = fmax(reference_harmonic_sum(coefficients, normal), 0);
         const double remainder = (double)found.remainder[i][0];
+        assert_float_equal((double)found.remainder[i][3], share_below(&cube, normal), 1e-4);
         largest = fmax(largest, expected);
         missed = fmax(missed, fabs(remainder));
         worst = fmax(worst, fabs(harmonics + remainder - expected));
@@ -435,7 +453,8 @@ static void the_remainder_is_what_harmonics_miss(void **state) {
     device_cube uploaded = upload(*state, &cube, 1);
     const struct irradiance_harmonics windowed = run(*state, &uploaded, 0.5);
     for (int i = 0; i < WIDTH * WIDTH; i++)
-        assert_true(windowed.remainder[i][0] == 0);
+        assert_true(windowed.remainder[i][0] == 0 &&
+                    windowed.remainder[i][3] == found.remainder[i][3]);
     release(&uploaded);
     free(cube.texels);
 }

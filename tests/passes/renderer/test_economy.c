@@ -466,6 +466,32 @@ static void instances_share_what_they_can(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// What every frame uploads in place of harmonics is no larger than these.
+static void methods_without_harmonics_upload_no_map_of_them(void **state) {
+    static const char *const methods[] = {"env=mip", "env=exact"};
+    fixture *f = *state;
+    lobe_scene *scene = constant_scene(true, 16);
+    scene_surround(scene, 16, dusk);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (int i = 0; i < 2; i++) {
+        picture_request request = request_for("direct", methods[i]);
+        request.settings[1] = "env_size=16";
+        lobe_frame frame = draw(f, &request);
+        const lobe_graph *graph = lobe_renderer_graph(f->renderer);
+        size_t found = 0;
+        for (uint32_t j = 0; j < graph->frame.dependencies.resource_count; j++) {
+            if (strcmp(graph->frame.resources[j].name, "no harmonics") == 0) {
+                assert_in_range(graph->frame.resources[j].size, 1, 256);
+                found++;
+            }
+        }
+        assert_int_equal(found, 1);
+        lobe_frame_free(&frame);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Code
 
@@ -622,6 +648,7 @@ int main(void) {
         cmocka_unit_test(rebuild_runs_everything),
         cmocka_unit_test(rebuilding_materials_keeps_the_environment),
         cmocka_unit_test(a_new_scene_gets_its_own_maps),
+        cmocka_unit_test(methods_without_harmonics_upload_no_map_of_them),
         cmocka_unit_test(instances_share_what_they_can),
         cmocka_unit_test(absent_lights_are_compiled_out),
         cmocka_unit_test(absent_features_of_a_material_are_compiled_out),

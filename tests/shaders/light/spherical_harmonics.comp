@@ -15,6 +15,8 @@ vec4 evaluate(vec4 a, vec4 b, vec4 c) {
         return harmonic_irradiance_by_degree(coefficients, a.xyz, 1.0, 1.0).xyzz;
     case 2:
         return harmonic_irradiance_from_below(coefficients, a.xyz, vec3(0.48, 0.64, 0.6)).xyzz;
+    case 3:
+        return harmonic_light_along(coefficients, a.xyz, vec3(0.48, 0.64, 0.6)).xyzz;
     default:
         return harmonic_irradiance_of_mean_normal(coefficients, a.xyz).xyzz;
     }

@@ -13,7 +13,15 @@
 #include "tests/shaders/support/quadrature.h"
 #include "tests/shaders/support/samples.h"
 
-enum { COUNT = 1000, UNIT_NORMAL = 0, MEAN_NORMAL = 1, FROM_BELOW = 2, PANELS = 12, AZIMUTHS = 8 };
+enum {
+    COUNT = 1000,
+    UNIT_NORMAL = 0,
+    MEAN_NORMAL = 1,
+    FROM_BELOW = 2,
+    ALONG = 3,
+    PANELS = 12,
+    AZIMUTHS = 8
+};
 static harness_arguments arguments[COUNT];
 static harness_result results[COUNT];
 
@@ -187,9 +195,19 @@ static harness_arguments radiance_of(const harness_arguments *at) {
     return radiance;
 }
 
-/// By brute force.
-static double irradiance_from_below(const harness_arguments *at, const double up[3]) {
-    enum { HEIGHTS = 100, TURNS = 200 };
+typedef double counted_cosine(double cosine, double above);
+
+static double from_below(double cosine, double above) {
+    return above < 0 ? fmax(cosine, 0) : 0;
+}
+
+static double along(double cosine, double above) {
+    return above > 0 ? cosine : 0;
+}
+
+/// Integral of the radiance times a function of its cosines with a and with `up`, by brute force.
+static double gathered(const harness_arguments *at, const double up[3], counted_cosine *counted) {
+    enum { HEIGHTS = 200, TURNS = 200 };
     const harness_arguments radiance = radiance_of(at);
     double sum = 0;
     for (int i = 0; i < HEIGHTS * TURNS; i++) {
@@ -201,8 +219,7 @@ static double irradiance_from_below(const harness_arguments *at, const double up
             cosine += (double)at->a[k] * w[k];
             above += up[k] * w[k];
         }
-        if (above < 0 && cosine > 0)
-            sum += cosine * sum_at(&radiance, w);
+        sum += counted(cosine, above) * sum_at(&radiance, w);
     }
     return 4 * M_PI / (HEIGHTS * TURNS) * sum;
 }
@@ -220,9 +237,27 @@ static void test_from_below(void **state) {
     for (size_t i = 0; i < NORMALS; i++)
         // Relative to the whole irradiance, about 2.3.
         check_close("harmonic_irradiance_from_below", &arguments[i],
-                    2 + (double)results[i].value[0], 2 + irradiance_from_below(&arguments[i], up),
+                    2 + (double)results[i].value[0], 2 + gathered(&arguments[i], up, from_below),
                     2e-3);
     report_worst_error("harmonic_irradiance_from_below");
+}
+
+static void test_light_along(void **state) {
+    enum { VECTORS = 30 };
+    const double up[3] = {0.48, 0.64, 0.6};
+    uint64_t random = 86;
+    for (size_t i = 0; i < VECTORS; i++) {
+        random_direction(&random, arguments[i].a);
+        for (int j = 0; j < 3; j++)
+            arguments[i].a[j] *= 1 - 0.02f * (float)i;
+        random_coefficients(&random, &arguments[i]);
+    }
+    harness_evaluate(state, "light/spherical_harmonics.comp", ALONG, arguments, VECTORS, results);
+    for (size_t i = 0; i < VECTORS; i++)
+        // Of either sign, up to the whole irradiance, about 2.3.
+        check_close("harmonic_light_along", &arguments[i], 5 + (double)results[i].value[0],
+                    5 + gathered(&arguments[i], up, along), 2e-3);
+    report_worst_error("harmonic_light_along");
 }
 
 int main(void) {
@@ -230,6 +265,7 @@ int main(void) {
         cmocka_unit_test(test_basis),          cmocka_unit_test(test_unit_normal),
         cmocka_unit_test(test_never_negative), cmocka_unit_test(test_mean_normal),
         cmocka_unit_test(test_exact_mean),     cmocka_unit_test(test_from_below),
+        cmocka_unit_test(test_light_along),
     };
     return cmocka_run_group_tests_name("spherical_harmonics", tests, harness_set_up,
                                        harness_tear_down);
