@@ -8,7 +8,7 @@
 #include "passes/context/knob.h"
 #include "passes/upload/device_scene.h"
 
-#define FILTER_MAXIMUM_BINDINGS        18
+#define FILTER_MAXIMUM_BINDINGS        19
 #define FILTER_MAXIMUM_SPECIALISATIONS 40
 
 /// What a filter built for one instance: inputs of its draw in the shading pass.

@@ -26,6 +26,8 @@ const bool BIN_WIDTHS = false;
 
 #include "filters/displaced/mirrored_light.glsl"
 #include "filters/displaced/light_sent_on.glsl"
+#include "filters/displaced/two_widths.glsl"
+#include "filters/leadr/base_lobe_map.glsl"
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
@@ -41,6 +43,8 @@ layout(LOBE_DESCRIPTOR(38)) uniform sampler2DArray facet_map;
 
 // Whether the relief's facets mirror light.
 const bool FACETS = RELIEF && MODEL == MODEL_MICROFACET;
+// Widths of microfacets that are shaded.
+const uint WIDTHS = FACETS && BASE_LOBES != BASE_LOBES_ALIKE ? 2u : 1u;
 // Whether pixels may see single facets. Displaced triangles are drawn where these are.
 const bool NEAR = RELIEF && MAGNIFIED && !DISPLACED;
 
@@ -96,7 +100,9 @@ struct relief_footprint {
     vec3 colour;         // the mean diffuse colour, if it varies
     float visible;       // the area that the viewer sees, over the map's mean of it
     float seen;          // of the facets' area that faces the viewer
-    light_sum lights[4];
+    float widths[WIDTHS]; // parameters of the distribution
+    float shares[WIDTHS]; // of what is mirrored
+    light_sum lights[4u * WIDTHS];
     vec3 mirrored;      // what facets mirror of light from everywhere
     float mirrored_on;  // how much of that meets other facets, relative to diffuse light
     sent_on_lobe sent_on; // where that comes from if they are smooth
@@ -703,45 +709,55 @@ float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen) 
 struct mirroring_bins {
     facet_group groups[FACET_BINS];
     float depths[FACET_BINS]; // see find_depths()
-    float areas[FACET_BINS];
+    float seen[FACET_BINS];   // areas that are not masked
+    float lit[FACET_BINS];    // see lit_part()
+    float areas[FACET_BINS];  // shadowed as well, of one width of microfacets
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
     float shown;                // the sum of areas
     float facets;               // the area of all facets, over that of the carrier
 };
 
-mirroring_bins find_bins(surface_point surface, float width) {
+// All but the areas of one width.
+mirroring_bins find_bins(surface_point surface) {
     map_area area = transfer_area(surface);
     mirroring_bins bins;
     for (uint k = 0u; k < FACET_BINS; ++k)
         bins.groups[k] = facets_of_bin(surface, area, k);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
     find_depths(bins.groups, bins.depths);
-    float roughness = roughness_from_parameter(DISTRIBUTION, width);
-    float alpha = roughness * roughness;
-    bins.shown = bins.facets = 0.0;
+    bins.facets = 0.0;
     float facing = 0.0, masked = 0.0;
     for (uint k = 0u; k < FACET_BINS; ++k) {
         float size = bins.groups[k].size;
         bins.facets += size;
         normal_spread normals = normals_of(bins.groups[k]);
         normal_spread seen = seen_normals(normals, drawn.viewer, bins.shares[k]);
-        bins.areas[k] = 0.0;
+        bins.seen[k] = 0.0;
         if (size * bins.shares[k] <= 1e-4)
             continue;
         float cosine = size * mean_facing_cosine(normals, drawn.viewer);
-        float area = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
+        bins.seen[k] = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
         facing += cosine;
-        masked += area;
-        float lit = lit_part(bins.groups, bins.depths[k], seen);
-        bins.areas[k] = area * mix(lit, 0.5 + 0.5 * closure.direct, alpha);
+        masked += bins.seen[k];
+        bins.lit[k] = lit_part(bins.groups, bins.depths[k], seen);
     }
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        bins.seen[k] *= scale;
+    return bins;
+}
+
+void find_areas(inout mirroring_bins bins, float width) {
+    float roughness = roughness_from_parameter(DISTRIBUTION, width);
+    bins.shown = 0.0;
     for (uint k = 0u; k < FACET_BINS; ++k) {
-        bins.areas[k] *= scale;
+        bins.areas[k] = 0.0;
+        if (bins.seen[k] > 0.0)
+            bins.areas[k] = bins.seen[k] * mix(bins.lit[k], 0.5 + 0.5 * closure.direct,
+                                               roughness * roughness);
         bins.shown += bins.areas[k];
     }
-    return bins;
 }
 
 // Of each bin, the height from which on the relief hides no light.
@@ -758,38 +774,66 @@ void find_horizons(mirroring_bins bins, float width, out float horizons[FACET_BI
     }
 }
 
+// The widths of what is mirrored.
+void find_widths(appearance fetched, surface_point surface) {
+    drawn.widths[0] = fetched.base.width;
+    drawn.shares[0] = 1.0;
+    if (WIDTHS == 1u)
+        return;
+    two_widths found = find_two_widths(base_lobe_concentration(DISTRIBUTION, fetched.base.width),
+                                       fetch_alpha_moments(lobe_area(surface)));
+    for (uint i = 0u; i < WIDTHS; ++i) {
+        drawn.widths[i] = base_lobe_of_concentration(DISTRIBUTION,
+                                                     2.0 / (found.alpha[i] * found.alpha[i]));
+        drawn.shares[i] = found.share[i];
+    }
+}
+
 // Light that rough facets mirror onto others goes on as if it were diffuse, and that of smooth ones
 // as in light_sent_on.glsl. It is as much as the bins do not show of what is above the relief, so
 // that none is lost: relative to diffuse light, of which a white relief sends on what it does not
-// reflect at once.
-void find_mirrored_on(base_material base, mirroring_bins bins) {
+// reflect at once. Adds what one width has of it.
+void add_mirrored_on(base_material base, mirroring_bins bins, float share) {
     float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
     vec3 one = vec3(1.0), colours = COLOURED ? squared_colours(base.specular) : one;
     float diffuse = dot(indirect_of_white_sky(), one) / dot(colours, one);
-    drawn.mirrored = mirrored_part(base);
-    drawn.mirrored_on = min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
-    drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0,
-                                 roughness_from_parameter(DISTRIBUTION, base.width));
+    drawn.mirrored += share * mirrored_part(base);
+    drawn.mirrored_on +=
+        share * min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
+}
+
+void find_axis_of_sent_on(mirroring_bins bins) {
+    float roughness = 0.0;
+    for (uint i = 0u; i < WIDTHS; ++i)
+        roughness += drawn.shares[i] * roughness_from_parameter(DISTRIBUTION, drawn.widths[i]);
+    drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0, roughness);
 }
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
-    mirroring_bins bins = find_bins(surface, fetched.base.width);
-    find_mirrored_on(fetched.base, bins);
+    find_widths(fetched, surface);
+    mirroring_bins bins = find_bins(surface);
+    find_axis_of_sent_on(bins);
     float hiding[4]; // Lambda of light and viewer
-    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
-        drawn.lights[i] = no_light();
+    for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
         hiding[i] = lambda_of_seen(drawn.seen) +
                     lambda_of_seen(seen_part(facing_area(bins.groups, incoming[i]), incoming[i]));
-    }
-    for (uint k = 0u; k < FACET_BINS; ++k) {
-        if (bins.groups[k].size <= 1e-4)
-            continue;
-        plane_bin bin = bin_of(bins.groups[k], fetched.base.width);
-        for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
-            vec3 halfway = half_vector(incoming[i], surface.outgoing);
-            light_sum own = no_light();
-            add_bin_to_light(own, bin, halfway, plane_from_direction(halfway));
-            add_light(drawn.lights[i], own, 1.0 / (1.0 + bins.depths[k] * hiding[i]));
+    for (uint w = 0u; w < WIDTHS; ++w) {
+        base_material base = fetched.base;
+        base.width = drawn.widths[w];
+        find_areas(bins, base.width);
+        add_mirrored_on(base, bins, drawn.shares[w]);
+        for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
+            drawn.lights[4u * w + i] = no_light();
+        for (uint k = 0u; k < FACET_BINS; ++k) {
+            if (bins.groups[k].size <= 1e-4)
+                continue;
+            plane_bin bin = bin_of(bins.groups[k], base.width);
+            for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
+                vec3 halfway = half_vector(incoming[i], surface.outgoing);
+                light_sum own = no_light();
+                add_bin_to_light(own, bin, halfway, plane_from_direction(halfway));
+                add_light(drawn.lights[4u * w + i], own, 1.0 / (1.0 + bins.depths[k] * hiding[i]));
+            }
         }
     }
 }
@@ -797,8 +841,13 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
 // Over the area that the viewer sees.
 vec3 mirrored_by_facets(base_material base, vec3 fresnel, vec3 outgoing, vec3 incoming,
                         uint light) {
-    return mirrored_light(base, drawn.lights[light], fresnel, outgoing, incoming) /
-           (drawn.viewer.z * drawn.visible);
+    vec3 sum = vec3(0.0);
+    for (uint w = 0u; w < WIDTHS; ++w) {
+        base.width = drawn.widths[w];
+        sum += drawn.shares[w] *
+               mirrored_light(base, drawn.lights[4u * w + light], fresnel, outgoing, incoming);
+    }
+    return sum / (drawn.viewer.z * drawn.visible);
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
@@ -861,17 +910,31 @@ vec3 most_of_environment(polynomials light[3]) {
                0.0);
 }
 
-vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
-    mirroring_bins bins = find_bins(surface, fetched.base.width);
-    find_mirrored_on(fetched.base, bins);
+// Of one width of microfacets.
+vec3 reflect_bins_of_relief(base_material base, surface_point surface, mirroring_bins bins) {
     float horizons[FACET_BINS];
-    find_horizons(bins, fetched.base.width, horizons);
+    find_horizons(bins, base.width, horizons);
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k)
         if (bins.areas[k] > 0.0)
             sum += bins.areas[k] / max(bins.shares[k], 1e-3) *
-                   reflect_bin(surface, bin_of(bins.groups[k], fetched.base.width),
-                               fetched.base.specular, facet_view(true, true, horizons[k]));
+                   reflect_bin(surface, bin_of(bins.groups[k], base.width), base.specular,
+                               facet_view(true, true, horizons[k]));
+    return sum;
+}
+
+vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
+    find_widths(fetched, surface);
+    mirroring_bins bins = find_bins(surface);
+    find_axis_of_sent_on(bins);
+    vec3 sum = vec3(0.0);
+    for (uint w = 0u; w < WIDTHS; ++w) {
+        base_material base = fetched.base;
+        base.width = drawn.widths[w];
+        find_areas(bins, base.width);
+        add_mirrored_on(base, bins, drawn.shares[w]);
+        sum += drawn.shares[w] * reflect_bins_of_relief(base, surface, bins);
+    }
     return sum / (drawn.viewer.z * drawn.visible);
 }
 

@@ -29,8 +29,8 @@
 #define BASE_PLANE_FACETS  0 // the plane of the mean normal
 #define BASE_PLANE_SURFACE 1 // the surface's, and GGX without its tails, as in the paper
 
-// The map of microfacets' base lobes of `leadr` and `multi_leadr` (shaders/filters/leadr/
-// base_lobes.comp) has one layer: with alpha their width and w the luminance of F0,
+// The map of microfacets' base lobes of `leadr`, `multi_leadr` and `displaced` (shaders/filters/
+// leadr/base_lobes.comp) has one layer: with alpha their width and w the luminance of F0,
 //   E[w alpha], E[w alpha^2], E[w].
 
 // uint, BASE_LOBES_...

@@ -4,6 +4,7 @@
 #include "passes/filters/displaced/kept_transfer.h"
 #include "passes/filters/displaced/relief.h"
 #include "passes/filters/displaced/transfer_map.h"
+#include "passes/filters/leadr/base_lobes.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/kept/record.h"
 #include "passes/maps/magnification.h"
@@ -155,6 +156,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_bind(appearance, "facet_map", drawn.transfer.facets.resource, sampler);
     passes_appearance_bind(appearance, "closure_block", drawn.transfer.closure, (lobe_sampler){0});
     passes_relief_bind(has_relief && drawn.near ? &drawn.relief : NULL, context, appearance);
+    passes_base_lobes_build(context, index, has_relief, appearance);
     passes_appearance_specialise(appearance, SPECIALISE_RELIEF, has_relief);
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED,

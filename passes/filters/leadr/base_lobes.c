@@ -38,10 +38,10 @@ static reduced_map make_map(const filter_context *context, uint32_t index, uint3
     return passes_lobe_map(context, index, &kind, passes_filtered_map_format(context));
 }
 
-void passes_base_lobes_build(const filter_context *context, uint32_t index,
+void passes_base_lobes_build(const filter_context *context, uint32_t index, bool needed,
                              filtered_appearance *appearance) {
     const device_material *material = &context->scene->materials[index];
-    const uint32_t variation = variation_of(material);
+    const uint32_t variation = needed ? variation_of(material) : BASE_LOBES_ALIKE;
     lobe_resource resource = lobe_graph_import_texture(context->graph, context->scene->white);
     if (variation != BASE_LOBES_ALIKE) {
         const reduced_map map = make_map(context, index, variation, material->metallic_varies);

@@ -47,7 +47,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
         return;
     }
     passes_slope_moments_build(context, instance, prepared, appearance);
-    passes_base_lobes_build(context, material, appearance);
+    passes_base_lobes_build(context, material, true, appearance);
 }
 
 const lobe_filter passes_filter_leadr = {

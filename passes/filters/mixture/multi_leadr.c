@@ -46,7 +46,7 @@ static void build(const filter_context *context, size_t instance, const void *pr
     const bool has = passes_mixture_build(context, material, &kind, prepared, &mixture);
     passes_appearance_specialise(appearance, SPECIALISE_BINS, kind.components);
     passes_bin_appearance_bind(context, material, has ? &mixture : NULL, appearance);
-    passes_base_lobes_build(context, material, appearance);
+    passes_base_lobes_build(context, material, true, appearance);
 }
 
 static const char *ignores(const lobe_scene *scene, const device_material *material) {

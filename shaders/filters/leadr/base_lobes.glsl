@@ -4,12 +4,8 @@
 // The base lobes of a footprint, from the map of base_lobes.comp.
 
 #include "shading/slope_maps.glsl"
-#include "interface/slope_moments.h"
+#include "filters/leadr/base_lobe_map.glsl"
 #include "lib/lobe/plane_lobe.glsl"
-
-layout(constant_id = SPECIALISE_BASE_LOBES) const uint BASE_LOBES = BASE_LOBES_ALIKE;
-
-layout(LOBE_DESCRIPTOR(45)) uniform sampler2DArray base_lobe_map;
 
 const bool BASE_HAS_TAILS =
     MODEL == MODEL_MICROFACET && DISTRIBUTION == DISTRIBUTION_GGX && !BASE_AS_LOBE;
@@ -28,8 +24,7 @@ base_lobes fetch_base_lobes(map_area area, float variance) {
     base_lobes result = base_lobes(variance, 0.0);
     if (BASE_LOBES == BASE_LOBES_ALIKE)
         return result;
-    vec3 means = filtered_layer(base_lobe_map, area, 0u).xyz;
-    vec2 alpha = means.xy / max(means.z, 1e-6);
+    vec2 alpha = fetch_alpha_moments(area);
     if (BASE_HAS_TAILS) {
         float square = max(alpha.x * alpha.x, 2.0 / CONCENTRATION_MAXIMUM);
         result.variance = 0.5 * square;

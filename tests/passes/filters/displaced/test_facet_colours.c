@@ -1,6 +1,9 @@
-// The filter "displaced" on reliefs whose colours vary, against `displaced-reference`.
+// The filter "displaced" on reliefs whose colours, metal or roughness vary, against
+// `displaced-reference` and against materials where they do not.
 
 #include <math.h>
+
+#include "tests/long_runs.h"
 
 #include "tests/passes/filters/displaced/relief_plane.h"
 #include "tests/passes/support/slope_plane.h"
@@ -57,8 +60,10 @@ static void draw_coloured(fixture *f, const coloured_relief *relief, const doubl
         relief_plane(&relief->material, relief_map(SIDE, SIDE, waves), outgoing, relief->tiles);
     if (relief->colours.texels)
         scene->materials[0].base_colour_map = scene_add_map(scene, relief->colours);
-    if (relief->metal.texels)
+    if (relief->metal.texels) {
         scene->materials[0].metallic_roughness_map = scene_add_map(scene, relief->metal);
+        scene->materials[0].metallic_roughness_map.nearest = true; // no widths between
+    }
     if (incoming)
         relief_plane_add_sun(scene, incoming, 1);
     else
@@ -157,7 +162,7 @@ static lobe_image metal_map(bool squares) {
 /// as without a map. Squares from 30 degrees: 0.951 of the reference; by the mean of Fresnel's term
 /// instead, 0.74.
 static void metal_with_a_map_loses_no_light(void **state) {
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (long_runs() ? 4 : 2); i++) {
         double outgoing[3], expected[3], found[3];
         slope_plane_direction(i < 2 ? 30 : 70, 0.3 + i, outgoing);
         coloured_relief relief = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1),
@@ -172,6 +177,47 @@ static void metal_with_a_map_loses_no_light(void **state) {
         draw_coloured(*state, &relief, outgoing, NULL, found);
         if (!(fabs(found[1] - expected[1]) <= 0.07 * expected[1]))
             fail_msg("case %d: %g instead of %g", i, found[1], expected[1]);
+    }
+}
+
+/// Metal, of which a part is rough in squares: green.
+static lobe_image roughness_map(double part, float smooth, float rough) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, SIDE, SIDE);
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const uint32_t square = i % SIDE / 4 + i / SIDE / 4 * 3;
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        texel[1] = square % 8 < 8 * part ? rough : smooth;
+        texel[2] = 1;
+    }
+    return image;
+}
+
+static double rough_metal(fixture *f, const char *filter, double part, const double outgoing[3],
+                          const double incoming[3]) {
+    double mean[3];
+    const coloured_relief relief = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1),
+                                    .metal = roughness_map(part, 0.4F, 0.9F),
+                                    .tiles = 40,
+                                    .filter = filter,
+                                    .samples = 8192};
+    draw_coloured(f, &relief, outgoing, incoming, mean);
+    return mean[1];
+}
+
+/// Polish beside rough patches reflects as both do, as much of each as there is. Measured: 0.97,
+/// 1.11, 0.94 and 0.98 of the reference; with one width of the mean concentration, 1.35 to 1.75.
+static void roughness_varies(void **state) {
+    static const double parts[] = {0.5, 0.875};
+    for (int i = 0; i < (long_runs() ? 4 : 2); i++) {
+        double outgoing[3], incoming[3];
+        slope_plane_direction(35 + 10 * i, 0.3, outgoing);
+        slope_plane_direction(50, 2.2, incoming);
+        const double *light = i < 2 ? incoming : NULL;
+        const double expected =
+            rough_metal(*state, "displaced-reference", parts[i % 2], outgoing, light);
+        const double found = rough_metal(*state, "displaced", parts[i % 2], outgoing, light);
+        if (!(fabs(found - expected) <= 0.15 * expected))
+            fail_msg("case %d: %g instead of %g", i, found, expected);
     }
 }
 
@@ -223,6 +269,7 @@ int main(void) {
         cmocka_unit_test(colours_vary_with_heights),
         cmocka_unit_test(maps_of_one_colour_are_that_colour),
         cmocka_unit_test(metal_with_a_map_loses_no_light),
+        cmocka_unit_test(roughness_varies),
         cmocka_unit_test(colours_rebuild_what_depends_on_them),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
