@@ -517,6 +517,72 @@ static void images_whose_content_stays_are_filtered_once(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// The host writes one image while lobe reads the other. Each has numbers of its own, which may be
+/// equal, and go back to what they were with the content: pictures show the image that is lent.
+static void two_images_may_take_turns(void **state) {
+    static const float slopes[2] = {0.2f, -0.2f};
+    static const struct turn {
+        int image;
+        uint64_t content;
+        float slope; ///< written before, if not 0
+    } turns[] = {{0, 5, 0.2f}, {1, 5, -0.2f}, {0, 5, 0},     {1, 5, 0},
+                 {1, 6, 0.2f}, {0, 5, 0},     {0, 6, -0.2f}, {0, 5, 0.2f},
+                 {1, 6, 0},    {1, 5, -0.2f}, {1, 0, 0.2f},  {1, 5, -0.2f}};
+    (void)state;
+    host_device host;
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
+    lobe_scene *scene = mapped_scene(377);
+    scene->images[0].on_device = true;
+    assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
+    host_image maps[2];
+    lobe_vulkan_image lent[2];
+    for (int i = 0; i < 2; i++) {
+        maps[i] = host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
+                                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+        lent[i] = (lobe_vulkan_image){.image = maps[i].image,
+                                      .format = maps[i].format,
+                                      .width = MAP,
+                                      .height = MAP,
+                                      .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                      .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    }
+    uint64_t expected[2] = {0};
+    float slope[2] = {0};
+    for (size_t n = 0; n < sizeof turns / sizeof *turns; n++) {
+        const struct turn *turn = &turns[n];
+        lobe_vulkan_image *image = &lent[turn->image];
+        if (turn->slope != 0) {
+            clear_map(&host, &maps[turn->image], turn->slope);
+            image->layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+            slope[turn->image] = turn->slope;
+        }
+        image->content = turn->content;
+        const lobe_render_parameters parameters = parameters_of(n % 2 ? "lean" : "lobes");
+        const lobe_render_parameters again = parameters_of("lean");
+        lobe_renderer_set_content_giver(renderer, give_vulkan, image);
+        lobe_frame frame;
+        assert_int_equal(lobe_renderer_render(renderer, &parameters, &frame), LOBE_OK);
+        lobe_frame_free(&frame);
+        image->layout = image->final_layout;
+        assert_int_equal(lobe_renderer_render(renderer, &again, &frame), LOBE_OK);
+        const uint64_t hash = image_hash(&frame.radiance);
+        lobe_frame_free(&frame);
+        const int kind = slope[turn->image] == slopes[1];
+        if (expected[kind] == 0)
+            expected[kind] = hash;
+        if (hash != expected[kind])
+            fail_msg("turn %zu shows another image", n);
+    }
+    assert_true(expected[0] != expected[1]);
+    lobe_renderer_destroy(&renderer);
+    lobe_device_destroy(&device);
+    for (int i = 0; i < 2; i++)
+        host_image_destroy(&host, &maps[i]);
+    host_device_close(&host);
+    lobe_scene_destroy(&scene);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Mistakes
 
@@ -584,6 +650,7 @@ int main(void) {
         cmocka_unit_test(an_example_without_metal_says_nothing),
         cmocka_unit_test(images_of_the_hosts_vulkan_are_maps),
         cmocka_unit_test(images_whose_content_stays_are_filtered_once),
+        cmocka_unit_test(two_images_may_take_turns),
         cmocka_unit_test(mistakes_are_named),
     };
     return cmocka_run_group_tests(tests, fixture_create_validated, fixture_destroy);
