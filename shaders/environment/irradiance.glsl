@@ -116,7 +116,8 @@ vec3 share_from_below(vec3 mean_normal, vec3 up, vec3 towards, float share_all_a
                one_sided);
 }
 
-// `all`: irradiance of the mean normal, which is in the environment's space as `up` is.
+// Of `all`, the irradiance over pi of normals with this mean, which is in the environment's space
+// as `up` is.
 vec3 lambert_from_below(vec3 all, vec3 mean_normal, vec3 up) {
     const float STEP = 0.1; // radians, about a texel of the map
     vec3 aside = mean_normal - dot(mean_normal, up) * up;
@@ -128,17 +129,30 @@ vec3 lambert_from_below(vec3 all, vec3 mean_normal, vec3 up) {
                    irradiance_remainder(up - STEP * towards).rgb) / (2.0 * STEP);
     vec3 along = harmonic_light_along(irradiance.coefficients, mean_normal, up) +
                  dot(mean_normal, up) * here.rgb + length_aside * growth;
-    return max(all - along, vec3(0.0)) * share_from_below(mean_normal, up, towards, here.w);
+    return max(all - environment.intensity * INVERSE_PI * along, vec3(0.0)) *
+           share_from_below(mean_normal, up, towards, here.w);
+}
+
+// Of `all`, the irradiance over pi of normals with this mean, what comes from above the surface.
+vec3 lambert_from_above(surface_point surface, vec3 all, vec3 mean_normal) {
+    if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL))
+        return all;
+    vec3 below = ENVIRONMENT_METHOD == ENVIRONMENT_MIP
+                     ? irradiance_from_below(surface, mean_normal)
+                     : lambert_from_below(all, to_environment(surface, mean_normal),
+                                          to_environment(surface, vec3(0.0, 0.0, 1.0)));
+    return max(all - below, vec3(0.0));
+}
+
+// The same of sums with weights; `normals`: of them, w: of the weights.
+vec3 lambert_sum_from_above(surface_point surface, vec3 sum, vec4 normals) {
+    float weight = max(normals.w, 1e-6);
+    return weight * lambert_from_above(surface, sum / weight, normals.xyz / weight);
 }
 
 // Irradiance over pi, without what comes from below the surface.
 vec3 lambert_irradiance(surface_point surface, vec3 mean_normal) {
-    if (HORIZON == HORIZON_IGNORED || !has_map(MAP_NORMAL) ||
-        ENVIRONMENT_METHOD == ENVIRONMENT_MIP)
-        return irradiance_above(surface, mean_normal);
-    vec3 normal = to_environment(surface, mean_normal), all = irradiance_of_mean(normal);
-    vec3 below = lambert_from_below(all, normal, to_environment(surface, vec3(0.0, 0.0, 1.0)));
-    return (environment.intensity * INVERSE_PI) * max(all - below, vec3(0.0));
+    return lambert_from_above(surface, mean_irradiance(surface, mean_normal), mean_normal);
 }
 
 #endif

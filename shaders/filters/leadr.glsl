@@ -262,21 +262,26 @@ vec3 reflect_slopes(appearance fetched, surface_point surface) {
                                      : 0.0);
 }
 
-// Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes. Only masking is applied, as
-// in Algorithm 2: it is unknown which part of the environment's light is shadowed.
+// Eq. 21 and Algorithm 3: irradiance of the facets of a grid of slopes, without light from below
+// the surface. Only masking is applied, as in Algorithm 2: it is unknown which part of the light
+// from above is shadowed.
 vec3 lambert_slopes(appearance fetched, surface_point surface) {
     slope_distribution facets = fetched.lobe.facets;
     float undrawn = undrawn_part(fetched.lobe, fetched.lobe.texels);
     vec3 sum = vec3(0.0);
+    vec4 normals = vec4(0.0); // w: weights
     for (uint j = 0u; j < GRID; ++j) {
         for (uint k = 0u; k < GRID; ++k) {
             vec2 position = vec2(grid_position(j), grid_position(k));
             vec2 slope = slope_at(facets, position);
-            sum += exp(-0.5 * dot(position, position)) *
-                   facet_height(facets.mean, slope, undrawn, surface.outgoing) *
-                   mean_irradiance(surface, normal_of_slope(slope));
+            float weight = exp(-0.5 * dot(position, position)) *
+                           facet_height(facets.mean, slope, undrawn, surface.outgoing);
+            vec3 normal = normal_of_slope(slope);
+            sum += weight * mean_irradiance(surface, normal);
+            normals += weight * vec4(normal, 1.0);
         }
     }
+    sum = lambert_sum_from_above(surface, sum, normals);
     float row = grid_weight();
     float height = height_above_slope(facets.mean, surface.outgoing);
     facets.root *= undrawn;

@@ -292,34 +292,37 @@ vec3 reflect_lobe(appearance fetched, surface_point surface, slope_lobe lobe) {
                                  BASE_HAS_TAILS ? lobe.base_variance : 0.0);
 }
 
-// Only masking is applied: it is unknown which part of the environment's light is shadowed.
-vec3 lambert_lobe(appearance fetched, surface_point surface, slope_distribution facets) {
-    vec3 sum = vec3(0.0);
+// Adds the irradiance of a lobe's facets over pi and their normals (w: weights). Only masking is
+// applied: it is unknown which part of the environment's light from above is shadowed.
+void add_lambert_lobe(surface_point surface, slope_lobe lobe, inout vec3 sum, inout vec4 normals) {
+    float row = grid_weight();
     for (uint j = 0u; j < GRID; ++j) {
         for (uint k = 0u; k < GRID; ++k) {
             vec2 position = vec2(grid_position(j), grid_position(k));
-            vec2 slope = slope_at(facets, position);
-            sum += exp(-0.5 * dot(position, position)) *
-                   max(height_above_slope(slope, surface.outgoing), 0.0) *
-                   mean_irradiance(surface, normal_of_slope(slope));
+            vec2 slope = slope_at(lobe.facets, position);
+            float weight = lobe.part / (row * row) * exp(-0.5 * dot(position, position)) *
+                           max(height_above_slope(slope, surface.outgoing), 0.0);
+            vec3 normal = normal_of_slope(slope);
+            sum += weight * mean_irradiance(surface, normal);
+            normals += weight * vec4(normal, 1.0);
         }
     }
-    float row = grid_weight();
-    return sum / (row * row);
 }
 
 vec3 reflect_footprint(appearance fetched, surface_point surface) {
     vec3 sum = vec3(0.0), diffuse = vec3(0.0);
+    vec4 normals = vec4(0.0);
     for (uint i = 0u; i < BINS; ++i) {
         slope_lobe lobe = fetched.lobe.lobes[i];
         if (lobe.part < 1.0 / 64.0)
             continue;
         sum += lobe.part * reflect_lobe(fetched, surface, lobe);
         if (DIFFUSE)
-            diffuse += lobe.part * lambert_lobe(fetched, surface, lobe.facets);
+            add_lambert_lobe(surface, lobe, diffuse, normals);
     }
     if (DIFFUSE && height_above_slope(fetched.moments.mean, surface.outgoing) > 0.0)
-        sum += let_through(surface, fetched.filtered) * diffuse /
+        sum += let_through(surface, fetched.filtered) *
+               lambert_sum_from_above(surface, diffuse, normals) /
                (area_ratio(fetched, surface.outgoing, false) *
                 divisor_height(fetched, surface.outgoing));
     return sum;
