@@ -118,8 +118,15 @@ INTERFACE_OFFSET(height_bounds_constants, source_columns, 24)
 INTERFACE_OFFSET(height_bounds_constants, source_rows, 28)
 
 // One displaced instance, seen by a camera (std140). Lengths are metres in the world unless they
-// are said to be the object's.
+// are said to be the object's. What follows the instance's motion is not first: lavapipe (Mesa
+// 22.3) compiles these passes again, for seconds, whenever the first number of this block changes.
 struct displacement_constants {
+    uint width, height;  // texels of the height map
+    uint wrap_u, wrap_v; // WRAP_...
+    uint second_set;     // of texture coordinates
+    uint levels;         // of the height map
+    uint patch_count;
+    uint depth;         // patches of a triangle: 4^depth
     float4 rows[3];     // object to world
     float4 axis;        // unit view direction; w: its product with the eye's position
     float4 planes[5];   // of the view's frustum: unit, inwards, at least 0 inside
@@ -127,18 +134,12 @@ struct displacement_constants {
     float pixels;       // per metre: at a distance of one metre, or everywhere
     float perspective;  // 1: the former
     float near_plane;
-    float spacing;       // of vertices, pixels
-    float relief;        // of height 1, the object's lengths
-    float stretch;       // metres per object's length, at most
-    float scale;         // the same, on the average
-    float facing;        // which way fronts wind: 1, -1 if mirrored; 0: backs are seen, too
-    uint width, height;  // texels of the height map
-    uint wrap_u, wrap_v; // WRAP_...
-    uint second_set;     // of texture coordinates
-    uint levels;         // of the height map
-    uint patch_count;
-    uint depth; // patches of a triangle: 4^depth
-    uint row;   // threads in a row of the dispatch
+    float spacing; // of vertices, pixels
+    float relief;  // of height 1, the object's lengths
+    float stretch; // metres per object's length, at most
+    float scale;   // the same, on the average
+    float facing;  // which way fronts wind: 1, -1 if mirrored; 0: backs are seen, too
+    uint row;      // threads in a row of the dispatch
     uint vertex_room, triangle_room;
     uint caster_count; // lights that cast shadows; above PATCH_CASTERS: only some are listed
     float4 eye;        // w: 0: no place
@@ -150,25 +151,25 @@ struct displacement_constants {
     uint padding_2;
 };
 INTERFACE_SIZE(displacement_constants, 352)
-INTERFACE_OFFSET(displacement_constants, axis, 48)
-INTERFACE_OFFSET(displacement_constants, planes, 64)
-INTERFACE_OFFSET(displacement_constants, map_rows, 144)
-INTERFACE_OFFSET(displacement_constants, pixels, 176)
-INTERFACE_OFFSET(displacement_constants, perspective, 180)
-INTERFACE_OFFSET(displacement_constants, near_plane, 184)
-INTERFACE_OFFSET(displacement_constants, spacing, 188)
-INTERFACE_OFFSET(displacement_constants, relief, 192)
-INTERFACE_OFFSET(displacement_constants, stretch, 196)
-INTERFACE_OFFSET(displacement_constants, scale, 200)
-INTERFACE_OFFSET(displacement_constants, facing, 204)
-INTERFACE_OFFSET(displacement_constants, width, 208)
-INTERFACE_OFFSET(displacement_constants, height, 212)
-INTERFACE_OFFSET(displacement_constants, wrap_u, 216)
-INTERFACE_OFFSET(displacement_constants, wrap_v, 220)
-INTERFACE_OFFSET(displacement_constants, second_set, 224)
-INTERFACE_OFFSET(displacement_constants, levels, 228)
-INTERFACE_OFFSET(displacement_constants, patch_count, 232)
-INTERFACE_OFFSET(displacement_constants, depth, 236)
+INTERFACE_OFFSET(displacement_constants, height, 4)
+INTERFACE_OFFSET(displacement_constants, wrap_u, 8)
+INTERFACE_OFFSET(displacement_constants, wrap_v, 12)
+INTERFACE_OFFSET(displacement_constants, second_set, 16)
+INTERFACE_OFFSET(displacement_constants, levels, 20)
+INTERFACE_OFFSET(displacement_constants, patch_count, 24)
+INTERFACE_OFFSET(displacement_constants, depth, 28)
+INTERFACE_OFFSET(displacement_constants, rows, 32)
+INTERFACE_OFFSET(displacement_constants, axis, 80)
+INTERFACE_OFFSET(displacement_constants, planes, 96)
+INTERFACE_OFFSET(displacement_constants, map_rows, 176)
+INTERFACE_OFFSET(displacement_constants, pixels, 208)
+INTERFACE_OFFSET(displacement_constants, perspective, 212)
+INTERFACE_OFFSET(displacement_constants, near_plane, 216)
+INTERFACE_OFFSET(displacement_constants, spacing, 220)
+INTERFACE_OFFSET(displacement_constants, relief, 224)
+INTERFACE_OFFSET(displacement_constants, stretch, 228)
+INTERFACE_OFFSET(displacement_constants, scale, 232)
+INTERFACE_OFFSET(displacement_constants, facing, 236)
 INTERFACE_OFFSET(displacement_constants, row, 240)
 INTERFACE_OFFSET(displacement_constants, vertex_room, 244)
 INTERFACE_OFFSET(displacement_constants, triangle_room, 248)
