@@ -1,11 +1,11 @@
 #include "passes/renderer/light_parts.h"
 
 #include "passes/context/knob_values.h"
+#include "shaders/interface/light.h"
 
 /// By the iterations that each light takes: of closed surfaces, up to 1850 in "moments" with six
-/// bins, and about 27 in filters that have no footprints; otherwise about 30 where sixteen probes
-/// are fetched for lights, and at most 15 ("leadr") where none are.
-enum { LIGHTS_PER_PASS = 2560, LIGHTS_OF_MANY_LOOPS = 512, LIGHTS_OF_CLOSED_FOOTPRINTS = 16 };
+/// bins; otherwise, and in filters that have no footprints, at most about 30.
+enum { LIGHTS_OF_CLOSED_FOOTPRINTS = 16 };
 
 static uint32_t least(uint32_t a, uint32_t b) {
     return a < b ? a : b;
@@ -19,10 +19,8 @@ light_counts passes_light_counts(const lobe_scene *scene) {
 }
 
 static uint32_t most_lights(const filter_context *context) {
-    const bool closed = passes_closes_surfaces(context);
-    if (closed && context->filter->build)
-        return LIGHTS_OF_CLOSED_FOOTPRINTS;
-    return closed || context->filter->fetches_for_lights ? LIGHTS_OF_MANY_LOOPS : LIGHTS_PER_PASS;
+    return passes_closes_surfaces(context) && context->filter->build ? LIGHTS_OF_CLOSED_FOOTPRINTS
+                                                                     : LIGHTS_PER_PASS;
 }
 
 light_part passes_light_part(const filter_context *context, uint32_t first) {

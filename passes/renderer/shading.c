@@ -80,37 +80,34 @@ static void fill_light(const lobe_light *source, struct light *light) {
     light->cone[1] = -outer * light->cone[0];
 }
 
-static lobe_resource upload_lights(const filter_context *context) {
+/// Those of one part of the scene's lights, which are sorted by type.
+static lobe_resource upload_lights(const filter_context *context, light_part part) {
     static const lobe_light_type order[] = {LOBE_LIGHT_DIRECTIONAL, LOBE_LIGHT_POINT,
                                             LOBE_LIGHT_SPOT};
     const lobe_scene *scene = context->scene->scene;
-    size_t size = (scene->light_count ? scene->light_count : 1) * sizeof(struct light);
-    struct light *lights = lobe_allocate(lobe_host_allocator(context->host), 1, size);
-    if (!lights) {
-        lobe_graph_fail(context->graph, LOBE_ERROR_OUT_OF_MEMORY, "%s: out of memory for lights",
-                        scene->name);
-        return (lobe_resource){0};
-    }
-    size_t next = 0;
+    struct light lights[LIGHTS_PER_PASS] = {{.position = {0}}};
+    uint32_t number = 0;
     shadow_plan plan = passes_shadow_plan(context);
-    for (size_t type = 0; type < 3; type++) {
+    for (size_t type = 0; type < LIGHT_TYPES; type++) {
         for (size_t i = 0; i < scene->light_count; i++) {
             if (scene->lights[i].type != order[type])
                 continue;
-            fill_light(&scene->lights[i], &lights[next]);
-            lights[next].cone[2] = (float)plan.layers;
-            lights[next++].cone[3] = (float)passes_shadow_plan_take(&plan, &scene->lights[i]);
+            const uint32_t first_view = plan.layers;
+            const uint32_t views = passes_shadow_plan_take(&plan, &scene->lights[i]);
+            const uint32_t place = number++ - part.first; // wraps around before the part
+            if (place >= part.count)
+                continue;
+            fill_light(&scene->lights[i], &lights[place]);
+            lights[place].cone[2] = (float)first_view;
+            lights[place].cone[3] = (float)views;
         }
     }
-    lobe_resource resource = lobe_graph_upload(context->graph, "lights", lights, size);
-    lobe_release(lights);
-    return resource;
+    return lobe_graph_upload(context->graph, "lights", lights, sizeof lights);
 }
 
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work) {
-    return (shading_light){.punctual = upload_lights(context),
-                           .environment = passes_environment_light_build(context, work)};
+    return (shading_light){.environment = passes_environment_light_build(context, work)};
 }
 
 struct frame_constants passes_frame_constants(const filter_context *context,
@@ -309,7 +306,8 @@ static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
         return;
     lobe_resource frame = upload_frame(s, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
-    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
+    lobe_pass_read(pass, &(lobe_binding){.name = "light_block",
+                                         .resource = upload_lights(s->context, lights)});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_maps", .resource = light->shadows.maps});
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "shadow_slopes", .resource = light->shadows.slopes});

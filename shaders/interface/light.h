@@ -3,7 +3,10 @@
 
 #include "types.h"
 
-// A punctual light (std430).
+// As many as fit into the uniform buffers that every device has.
+#define LIGHTS_PER_PASS 256
+
+// A punctual light (std140).
 struct light {
     float4 position;  // world; w: 1 / range^2, 0 for unlimited
     float4 direction; // unit, towards the light for directional ones, else where a spot points

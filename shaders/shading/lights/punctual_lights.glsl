@@ -1,7 +1,7 @@
 #ifndef PUNCTUAL_LIGHTS_GLSL
 #define PUNCTUAL_LIGHTS_GLSL
 
-// The scene's lights, sorted: directional, point, spot. A pass draws those from `first_light` on.
+// The lights that a pass draws, sorted: directional, point, spot.
 
 #include "interface/light.h"
 #include "lib/light/light.glsl"
@@ -11,10 +11,10 @@ layout(constant_id = SPECIALISE_DIRECTIONAL_LIGHTS) const bool DIRECTIONAL_LIGHT
 layout(constant_id = SPECIALISE_POINT_LIGHTS) const bool POINT_LIGHTS = false;
 layout(constant_id = SPECIALISE_SPOT_LIGHTS) const bool SPOT_LIGHTS = false;
 
-layout(set = 0, binding = 2, std430) readonly buffer light_block { light lights[]; };
+layout(set = 0, binding = 2, std140) uniform light_block { light lights[LIGHTS_PER_PASS]; };
 
 light light_at(uint i) {
-    return lights[frame.first_light + i];
+    return lights[i];
 }
 
 uint light_count() {
