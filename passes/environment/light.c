@@ -7,7 +7,6 @@
 #include "passes/environment/broad_reflection.h"
 #include "passes/environment/directional_albedo.h"
 #include "passes/environment/hemispheres/hemisphere_moments.h"
-#include "passes/environment/hemispheres/irradiance_harmonics.h"
 #include "passes/environment/maps.h"
 #include "passes/environment/reflected_lobes.h"
 #include "passes/environment/reflection_table.h"
@@ -152,10 +151,11 @@ static void build_moments_and_tables(const filter_context *context, environment_
     }
 }
 
-/// A placeholder for methods that use none, without a remainder.
-static lobe_resource no_harmonics(lobe_graph *graph) {
-    static const float none[HARMONICS][4] = {{0}};
-    return lobe_graph_upload(graph, "no harmonics", none, sizeof none);
+/// Placeholders for methods that use none.
+static irradiance_maps no_harmonics(const filter_context *context) {
+    static const struct irradiance_harmonics none;
+    return (irradiance_maps){lobe_graph_upload(context->graph, "no harmonics", &none, sizeof none),
+                             lobe_graph_import_texture(context->graph, context->scene->white)};
 }
 
 /// Texels along a face of the cube.
@@ -224,10 +224,10 @@ static void build_maps(const filter_context *context, const environment_work *wo
     irradiance_source source = {maps.cubes[map], maps.width[map], maps.levels[map], filtered};
     bool harmonics = filtered || light->method == ENVIRONMENT_SAMPLED;
     const environment_means means = passes_environment_means(context->graph, &source);
-    light->harmonics = harmonics ? passes_irradiance_harmonics(
-                                       context->graph, source, &means,
-                                       passes_knob_value(context, &passes_knob_environment_window))
-                                 : no_harmonics(context->graph);
+    light->irradiance = harmonics ? passes_irradiance_harmonics(
+                                        context->graph, source, &means,
+                                        passes_knob_value(context, &passes_knob_environment_window))
+                                  : no_harmonics(context);
     build_moments_and_tables(context, light, &means);
 }
 
@@ -353,7 +353,10 @@ void passes_environment_light_bind(const environment_light *light, const filter_
          .resource = light->between,
          .range = range,
          .sampler = trilinear},
-        {.name = "irradiance_block", .resource = light->harmonics},
+        {.name = "irradiance_block", .resource = light->irradiance.harmonics},
+        {.name = "irradiance_remainder_map",
+         .resource = light->irradiance.remainder,
+         .sampler = passes_irradiance_remainder_sampler},
         {.name = "environment_block",
          .resource =
              lobe_graph_upload(context->graph, "environment", &constants, sizeof constants)},

@@ -4,6 +4,7 @@
 #include "passes/context/filter.h"
 #include "passes/context/material_specialisation.h"
 #include "passes/environment/cache/cached_cubes.h"
+#include "passes/environment/hemispheres/irradiance_harmonics.h"
 #include "shaders/interface/specialisation.h"
 
 /// What a renderer keeps of an environment's maps between frames; all zero: nothing.
@@ -38,7 +39,7 @@ typedef struct environment_light {
     lobe_resource cube; ///< radiance with all levels
     /// Filtered with lobes; the plain MIP chain where the method does not use them.
     lobe_resource prefiltered, prefiltered_ggx, between;
-    lobe_resource harmonics; ///< of the irradiance
+    irradiance_maps irradiance;
     /// Directional albedo by the distribution of microfacets and that of their masking; none where
     /// no material needs it.
     lobe_resource albedo[DISTRIBUTION_COUNT][DISTRIBUTION_COUNT];

@@ -9,30 +9,14 @@
 #include "lib/light/spherical_harmonics.glsl"
 #include "shading/base_material.glsl"
 
-// As irradiance_harmonics, without the remainder where the method uses none of it.
-layout(LOBE_DESCRIPTOR(29), std430) readonly buffer irradiance_block {
-    vec4 coefficients[HARMONICS];
-    vec4 remainder[];
-} irradiance;
-
-vec4 irradiance_remainder_at(ivec2 texel) {
-    if (ENVIRONMENT_METHOD != ENVIRONMENT_PREFILTERED && ENVIRONMENT_METHOD != ENVIRONMENT_SAMPLED)
-        return vec4(0.0);
-    return irradiance.remainder[HARMONICS_REMAINDER_WIDTH * texel.y + texel.x];
-}
+layout(LOBE_DESCRIPTOR(29), std140) uniform irradiance_block { irradiance_harmonics irradiance; };
+layout(LOBE_DESCRIPTOR(54)) uniform sampler2D irradiance_remainder_map;
 
 // What the harmonics miss. w: of the light near the horizon, the share from below. `direction`: of
 // any length but 0, in the environment's space.
 vec4 irradiance_remainder(vec3 direction) {
-    vec2 place = octahedron_coordinates(direction, float(HARMONICS_REMAINDER_SIZE)) *
-                     float(HARMONICS_REMAINDER_WIDTH) - 0.5;
-    ivec2 low = clamp(ivec2(place), ivec2(0), ivec2(HARMONICS_REMAINDER_WIDTH - 2));
-    vec2 part = place - vec2(low);
-    vec4 upper = mix(irradiance_remainder_at(low), irradiance_remainder_at(low + ivec2(1, 0)),
-                     part.x);
-    vec4 lower = mix(irradiance_remainder_at(low + ivec2(0, 1)),
-                     irradiance_remainder_at(low + ivec2(1, 1)), part.x);
-    return mix(upper, lower, part.y);
+    return textureLod(irradiance_remainder_map,
+                      octahedron_coordinates(direction, float(HARMONICS_REMAINDER_SIZE)), 0.0);
 }
 
 // For a mean normal of at most unit length, in the environment's space. Of normals that are

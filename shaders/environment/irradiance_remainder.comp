@@ -16,7 +16,8 @@ const int GROUP = 64;
 layout(local_size_x = GROUP) in;
 
 layout(set = 0, binding = 0) uniform sampler2DArray environment;
-layout(set = 0, binding = 1, std430) buffer harmonics_block { irradiance_harmonics harmonics; };
+layout(set = 0, binding = 1, std140) uniform harmonics_block { irradiance_harmonics harmonics; };
+layout(set = 0, binding = 2) uniform writeonly image2D remainder_map;
 
 layout(push_constant) uniform constants_block { irradiance_remainder_constants constants; };
 
@@ -36,8 +37,8 @@ void load_texel(int index, int size) {
 void main() {
     const int width = HARMONICS_REMAINDER_WIDTH;
     int index = int(gl_GlobalInvocationID.x), size = int(constants.size);
-    vec3 normal = octahedron_texel_direction(ivec2(index % width, index / width),
-                                             HARMONICS_REMAINDER_SIZE);
+    ivec2 place = ivec2(index % width, index / width);
+    vec3 normal = octahedron_texel_direction(place, HARMONICS_REMAINDER_SIZE);
     vec4 sum = vec4(0.0);     // w: of uniform light, whose sum is pi but for the cube's texels
     vec2 horizon = vec2(0.0); // luminance below, and in all
     for (int first = 0; first < 6 * size * size; first += GROUP) {
@@ -52,11 +53,11 @@ void main() {
             horizon += near * vec2(clamp(0.5 - 20.0 * cosine, 0.0, 1.0), 1.0);
         }
     }
-    if (index >= width * width)
+    if (place.y >= width)
         return;
     vec3 known = harmonic_irradiance_by_degree(harmonics.coefficients, normal, 1.0, 1.0);
     vec3 irradiance = PI / sum.w * sum.rgb;
     vec3 remainder = constants.is_zero != 0u ? vec3(0.0) : irradiance - known;
-    harmonics.remainder[index] =
-        vec4(remainder, horizon.y > 0.0 ? horizon.x / horizon.y : 0.5);
+    imageStore(remainder_map, place,
+               vec4(remainder, horizon.y > 0.0 ? horizon.x / horizon.y : 0.5));
 }

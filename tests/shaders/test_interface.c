@@ -265,7 +265,6 @@ static known_member known[] = {
     MEMBER(draw_constants, map_width, 1),
     MEMBER(hemisphere_moments_constants, size, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),
-    MEMBER(irradiance_harmonics, remainder, 1),
     MEMBER(irradiance_remainder_constants, size, 0),
     MEMBER(irradiance_remainder_constants, is_zero, 1),
     MEMBER(irradiance_harmonics_constants, size, 0),

@@ -6,6 +6,9 @@
 
 #include "shaders/interface/environment/irradiance_harmonics.h"
 
+const lobe_sampler passes_irradiance_remainder_sampler = {
+    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
+
 /// Texels along a face of the level that is projected, at most.
 #define FINEST_WIDTH 64
 
@@ -75,25 +78,31 @@ static lobe_resource add_up_groups(lobe_graph *graph, lobe_resource sums, uint32
     return harmonics;
 }
 
-static lobe_resource add_remainder(lobe_graph *graph, lobe_resource harmonics,
+static lobe_resource map_remainder(lobe_graph *graph, lobe_resource harmonics,
                                    const environment_means *means, double window) {
     const struct irradiance_remainder_constants constants = {.size = means->size,
                                                              .is_zero = window > 0};
+    lobe_resource map = lobe_graph_image(
+        graph, &(lobe_image_description){.name = "environment irradiance remainder",
+                                         .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                         .width = HARMONICS_REMAINDER_WIDTH,
+                                         .height = HARMONICS_REMAINDER_WIDTH,
+                                         .retained = true});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "irradiance_remainder");
     lobe_pass_read(pass,
                    &(lobe_binding){"environment", means->cube, .range = {means->level, 1, 0, 6}});
-    harmonics =
-        lobe_pass_modify(pass, &(lobe_binding){.name = "harmonics_block", .resource = harmonics});
+    lobe_pass_read(pass, &(lobe_binding){.name = "harmonics_block", .resource = harmonics});
+    map = lobe_pass_write(pass, &(lobe_binding){.name = "remainder_map", .resource = map});
     lobe_pass_dispatch(
         pass, &(lobe_dispatch){.shader = "environment/irradiance_remainder.comp",
                                .threads = {HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH},
                                .constants = &constants,
                                .constants_size = sizeof constants});
-    return harmonics;
+    return map;
 }
 
-lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
-                                          const environment_means *means, double window) {
+irradiance_maps passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
+                                            const environment_means *means, double window) {
     uint32_t level = passes_irradiance_source_level(&source, FINEST_WIDTH);
     struct irradiance_harmonics_constants constants = {source.size >> level};
     uint32_t texels = 6 * constants.size * constants.size;
@@ -110,6 +119,6 @@ lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source s
                                               .constants_size = sizeof constants});
     double concentration =
         source.filtered ? lobe_environment_level_concentration(source.size, level) : INFINITY;
-    return add_remainder(graph, add_up_groups(graph, sums, groups, concentration, window), means,
-                         window);
+    lobe_resource harmonics = add_up_groups(graph, sums, groups, concentration, window);
+    return (irradiance_maps){harmonics, map_remainder(graph, harmonics, means, window)};
 }

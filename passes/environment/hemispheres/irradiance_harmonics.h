@@ -3,9 +3,18 @@
 
 #include "passes/environment/hemispheres/means.h"
 
+/// An environment's irradiance (shaders/interface/environment/irradiance_harmonics.h); both are
+/// retained.
+typedef struct irradiance_maps {
+    lobe_resource harmonics; ///< a buffer of struct irradiance_harmonics
+    lobe_resource remainder; ///< what they miss, by normal
+} irradiance_maps;
+
+/// How shading reads the remainder.
+extern const lobe_sampler passes_irradiance_remainder_sampler;
+
 /// Adds the passes that project an environment's irradiance to nine spherical harmonics
-/// (Ramamoorthi, Hanrahan 2001): a retained buffer of struct irradiance_harmonics
-/// (shaders/interface/environment/irradiance_harmonics.h). A graph can hold one of them.
+/// (Ramamoorthi, Hanrahan 2001). A graph can hold one of them.
 ///
 /// Reads the first level whose faces are at most 64 texels wide. With faces of 256 texels,
 /// coefficients are then off by up to 1.4e-2 of the first for a sun of one texel, whose direction
@@ -17,8 +26,8 @@
 ///
 /// `window` [0, 1): how much ringing opposite bright lights is removed, see
 /// passes_harmonics_window.
-lobe_resource passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
-                                          const environment_means *means, double window);
+irradiance_maps passes_irradiance_harmonics(lobe_graph *graph, irradiance_source source,
+                                            const environment_means *means, double window);
 
 /// lambda >= 0 of Sloan 2008, Stupid Spherical Harmonics Tricks, "Windowing": the irradiance f_w
 /// that minimises

@@ -7,7 +7,9 @@
 #define HARMONICS 9
 
 // Texels along the map of what nine harmonics miss (lib/light/octahedron.glsl), without the border
-// of one texel around it: as many as those of hemisphere_moments.h, for the same reason.
+// of one texel around it: as many as those of hemisphere_moments.h, for the same reason. By normal,
+// RGB: irradiance less its harmonics, zero where harmonics are windowed; w: of the light near the
+// normal's horizon, the share that comes from below it.
 #define HARMONICS_REMAINDER_SIZE  32
 #define HARMONICS_REMAINDER_WIDTH 34
 
@@ -18,11 +20,8 @@
 // Irradiance from all directions, as harmonics; the shading pass reads this buffer directly.
 struct irradiance_harmonics {
     float4 coefficients[HARMONICS]; // RGB, W/m^2 where the radiance is W/(m^2 sr); w: 0
-    // By normal, row by row: irradiance less its harmonics, zero where harmonics are windowed; w:
-    // of the light near the normal's horizon, the share that comes from below it.
-    float4 remainder[HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH];
 };
-INTERFACE_SIZE(irradiance_harmonics, 18640)
+INTERFACE_SIZE(irradiance_harmonics, 144)
 
 // Texels that one group of the first step adds up, and invocations of a group.
 #define HARMONICS_GROUP_TEXELS 1024

@@ -121,33 +121,44 @@ static lobe_resource declare(fixture *f, const device_cube *cube) {
     return resource;
 }
 
+typedef struct irradiance_found {
+    float coefficients[HARMONICS][4];
+    float remainder[HARMONICS_REMAINDER_WIDTH * HARMONICS_REMAINDER_WIDTH][4];
+} irradiance_found;
+
+static void copy_data(fixture *f, lobe_resource resource, void *target, size_t expected) {
+    size_t size;
+    const void *data = lobe_graph_data(f->graph, resource, &size);
+    assert_int_equal(size, expected);
+    memcpy(target, data, size);
+}
+
 /// One frame.
-static struct irradiance_harmonics run(fixture *f, const device_cube *cube, double window) {
+static irradiance_found run(fixture *f, const device_cube *cube, double window) {
     lobe_graph_begin(f->graph);
     const irradiance_source source = {declare(f, cube), cube->size, cube->levels, false};
     const environment_means means = passes_environment_means(f->graph, &source);
-    lobe_resource harmonics = passes_irradiance_harmonics(f->graph, source, &means, window);
-    lobe_graph_read_back(f->graph, harmonics, (lobe_range){0});
+    const irradiance_maps maps = passes_irradiance_harmonics(f->graph, source, &means, window);
+    lobe_graph_read_back(f->graph, maps.harmonics, (lobe_range){0});
+    lobe_graph_read_back(f->graph, maps.remainder, (lobe_range){0});
     if (lobe_graph_execute(f->graph) != LOBE_OK)
         fail_msg("%s", f->error);
-    struct irradiance_harmonics found;
-    size_t size;
-    const void *data = lobe_graph_data(f->graph, harmonics, &size);
-    assert_int_equal(size, sizeof found);
-    memcpy(&found, data, sizeof found);
+    irradiance_found found;
+    copy_data(f, maps.harmonics, found.coefficients, sizeof found.coefficients);
+    copy_data(f, maps.remainder, found.remainder, sizeof found.remainder);
     return found;
 }
 
-static struct irradiance_harmonics project(fixture *f, const host_cube *cube) {
+static irradiance_found project(fixture *f, const host_cube *cube) {
     device_cube uploaded = upload(f, cube, 1);
-    struct irradiance_harmonics found = run(f, &uploaded, 0);
+    irradiance_found found = run(f, &uploaded, 0);
     release(&uploaded);
     return found;
 }
 
 /// All channels, within `tolerance` of the largest coefficient that the light could have.
-static void check(const struct irradiance_harmonics *found,
-                  const double expected[REFERENCE_HARMONICS], double tolerance, const char *what) {
+static void check(const irradiance_found *found, const double expected[REFERENCE_HARMONICS],
+                  double tolerance, const char *what) {
     for (int i = 0; i < REFERENCE_HARMONICS; i++) {
         for (int channel = 0; channel < 3; channel++) {
             double value = (double)found->coefficients[i][channel] / (1 << channel);
@@ -202,7 +213,7 @@ static void constant_light_is_constant(void **state) {
     static const int sizes[] = {1, 2, 13, 64};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         host_cube cube = cube_of(sizes[i], constant, axes[0]);
-        struct irradiance_harmonics found = project(*state, &cube);
+        irradiance_found found = project(*state, &cube);
         double expected[REFERENCE_HARMONICS];
         zonal(axes[0], (double[3]){0.7 * 4 * M_PI, 0, 0}, expected);
         check(&found, expected, 1e-6, "constant");
@@ -214,7 +225,7 @@ static void check_field(fixture *f, light_field light, const double moments[3], 
                         const char *what) {
     for (int i = 0; i < AXES; i++) {
         host_cube cube = cube_of(32, light, axes[i]);
-        struct irradiance_harmonics found = project(f, &cube);
+        irradiance_found found = project(f, &cube);
         double expected[REFERENCE_HARMONICS];
         zonal(axes[i], moments, expected);
         check(&found, expected, tolerance, what);
@@ -242,7 +253,7 @@ static void one_bright_texel(void **state) {
         reference_cube_texel_direction(face, x, y, size, direction);
         reference_add_irradiance(direction, 1e5 * reference_cube_texel_solid_angle(x, y, size),
                                  expected);
-        struct irradiance_harmonics found = project(*state, &cube);
+        irradiance_found found = project(*state, &cube);
         check(&found, expected, 2e-6, "one texel");
         free(cube.texels);
     }
@@ -263,7 +274,7 @@ static void rotation_changes_nothing(void **state) {
     // The second light's axis is the first's with its coordinates shifted, which is a rotation
     // about the same diagonal: they commute.
     host_cube cubes[2] = {cube_of(32, two_lights, axis), cube_of(32, two_lights, turned)};
-    struct irradiance_harmonics found[2] = {project(*state, &cubes[0]), project(*state, &cubes[1])};
+    irradiance_found found[2] = {project(*state, &cubes[0]), project(*state, &cubes[1])};
     for (int i = 0; i < 3; i++) {
         double normal[3] = {0}, sums[2];
         for (int j = 0; j < 3; j++)
@@ -295,7 +306,7 @@ static void a_sun_does_not_drown_the_sky(void **state) {
     set_texel(&cube, sun, 0);
     double expected[REFERENCE_HARMONICS], direction[3];
     reference_irradiance_of_cube(cube.texels, size, 0, expected);
-    struct irradiance_harmonics found = project(*state, &cube);
+    irradiance_found found = project(*state, &cube);
     check(&found, expected, 1e-6, "sky");
     set_texel(&cube, sun, 1e5);
     reference_cube_texel_direction(4, 77, 100, size, direction);
@@ -316,7 +327,7 @@ static double error_of_level(fixture *f, host_cube finest) {
     // One more, which must not be read.
     levels[last + 1] = cube_reduced(&levels[last]);
     device_cube uploaded = upload(f, levels, last + 2);
-    struct irradiance_harmonics found = run(f, &uploaded, 0);
+    irradiance_found found = run(f, &uploaded, 0);
     release(&uploaded);
     double exact[REFERENCE_HARMONICS], read[REFERENCE_HARMONICS], worst = 0;
     reference_irradiance_of_cube(levels[0].texels, levels[0].size, 0, exact);
@@ -368,7 +379,7 @@ static void a_window_takes_ringing_out(void **state) {
         double expected[REFERENCE_HARMONICS];
         for (int j = 0; j < REFERENCE_HARMONICS; j++)
             expected[j] = exact[j] / (1 + lambda * (j == 0 ? 0 : j < 4 ? 4 : 36));
-        struct irradiance_harmonics found = run(*state, &uploaded, windows[i]);
+        irradiance_found found = run(*state, &uploaded, windows[i]);
         check(&found, expected, 1e-6, "window");
     }
     release(&uploaded);
@@ -425,7 +436,7 @@ static void the_remainder_is_what_harmonics_miss(void **state) {
     enum { WIDTH = HARMONICS_REMAINDER_WIDTH };
     host_cube cube = cube_of(32, two_lights, axes[6]);
     set_texel(&cube, 2345, 2000); // a lamp
-    const struct irradiance_harmonics found = project(*state, &cube);
+    const irradiance_found found = project(*state, &cube);
     double largest = 0, missed = 0, worst = 0;
     for (int i = 0; i < WIDTH * WIDTH; i += 5) {
         const int column = i % WIDTH, row = i / WIDTH;
@@ -451,7 +462,7 @@ static void the_remainder_is_what_harmonics_miss(void **state) {
     assert_true(missed > 0.02 * largest);
     assert_true(worst < 1e-5 * largest);
     device_cube uploaded = upload(*state, &cube, 1);
-    const struct irradiance_harmonics windowed = run(*state, &uploaded, 0.5);
+    const irradiance_found windowed = run(*state, &uploaded, 0.5);
     for (int i = 0; i < WIDTH * WIDTH; i++)
         assert_true(windowed.remainder[i][0] == 0 &&
                     windowed.remainder[i][3] == found.remainder[i][3]);
@@ -464,11 +475,11 @@ static void a_still_environment_is_not_added_up_again(void **state) {
     fixture *f = *state;
     host_cube cube = cube_of(48, two_lights, axes[6]);
     device_cube uploaded = upload(f, &cube, 1);
-    struct irradiance_harmonics first = run(f, &uploaded, 0.25);
-    struct irradiance_harmonics kept = run(f, &uploaded, 0.25);
+    irradiance_found first = run(f, &uploaded, 0.25);
+    irradiance_found kept = run(f, &uploaded, 0.25);
     assert_int_equal(count_passes(f->graph, NULL, LOBE_PASS_RUN), 0);
     lobe_graph_invalidate(f->graph);
-    struct irradiance_harmonics again = run(f, &uploaded, 0.25);
+    irradiance_found again = run(f, &uploaded, 0.25);
     assert_int_equal(count_passes(f->graph, "irradiance_harmonics", LOBE_PASS_RUN), 1);
     assert_memory_equal(&first, &kept, sizeof first);
     assert_memory_equal(&first, &again, sizeof first);
