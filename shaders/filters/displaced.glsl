@@ -34,9 +34,7 @@ layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 
 layout(LOBE_DESCRIPTOR(36)) uniform sampler2DArray transfer_map;
-// A storage buffer: lavapipe's fragment shaders read even a number that all threads share once for
-// each thread, and from a uniform buffer in more instructions.
-layout(LOBE_DESCRIPTOR(37), std430) readonly buffer closure_block {
+layout(LOBE_DESCRIPTOR(37), std140) uniform closure_block {
     transfer_closure_constants closure;
 };
 layout(LOBE_DESCRIPTOR(38)) uniform sampler2DArray facet_map;
