@@ -19,11 +19,12 @@ static bool marks_map(const device_material *material, uint32_t map) {
     return map == MAP_NORMAL ? marks_lobes(material) : passes_filtered_map_is_image(material, map);
 }
 
-static bool marks_anything(const device_material *material) {
-    bool marks = false;
+/// Bits MAP_...
+static uint32_t marked_maps(const device_material *material) {
+    uint32_t maps = 0;
     for (uint32_t map = 0; map < MAP_SHADING; map++)
-        marks |= marks_map(material, map);
-    return marks;
+        maps |= marks_map(material, map) ? 1u << map : 0;
+    return maps;
 }
 
 /// Where a material's marks of a map are: with those of its lobes, or those of the image.
@@ -76,8 +77,7 @@ static void list_draws(rendering *r) {
     draw_list *draws = &r->renderer->draws;
     passes_draw_list_begin(draws, scene);
     for (size_t i = 0; i < scene->scene->material_count; i++) {
-        uint32_t next =
-            marks_anything(&scene->materials[i]) ? scene->materials[i].first_instance : 0;
+        uint32_t next = marked_maps(&scene->materials[i]) ? scene->materials[i].first_instance : 0;
         for (; next > 0; next = scene->instances[next - 1].next_of_material)
             if (!scene->scene->instances[next - 1].hidden)
                 passes_draw_list_add(draws, scene, next - 1, NULL, true);
@@ -127,6 +127,7 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     passes_material_specialise(material, &list);
     passes_knobs_specialise(context, &list);
     passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
+    passes_specialise(&list, SPECIALISE_FILTERED_MAPS, marked_maps(material));
     const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",

@@ -2,14 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Marks the tiles of filtered maps that a pixel reads: of both levels that its probes interpolate
-// between, the texels around each probe. Nothing that a device may read is left out: samplers round
-// coordinates and levels, and read texels whose weight is 0.
+// between, the rectangle of texels from the first probe to the last. Nothing that a device may read
+// is left out: samplers round coordinates and levels, and read texels whose weight is 0.
 
 #include "shading/pixel.glsl"
 #include "shading/map_area.glsl"
 #include "interface/map_tiles.h"
 
 layout(early_fragment_tests) in;
+
+// MAP_NORMAL stands for the map of lobes.
+layout(constant_id = SPECIALISE_FILTERED_MAPS) const uint FILTERED_MAPS = 0;
 
 layout(set = 0, binding = 50, std140) uniform tile_block {
     tile_marking_constants maps[MAP_SHADING];
@@ -20,49 +23,65 @@ layout(set = 0, binding = 51, std430) buffer mark_block { uint marks[]; };
 const float LEVEL_SLACK = 1.0 / 64.0;
 const float TEXEL_SLACK = 1.0 / 32.0;
 
-// A coordinate within the first period of its wrapping.
-float within_period(float coordinate, uint wrap) {
+// A texel within a period of its wrapping, however a device rounds quotients.
+float within_period(float texel, float size, uint wrap) {
+    float period = wrap == TILE_WRAP_MIRROR ? 2.0 * size : size;
+    float rest = texel - period * floor(texel / period);
+    return rest < 0.0 ? rest + period : rest < period ? rest : rest - period;
+}
+
+// Tiles in a row, which may go on at the other end.
+struct tile_range {
+    uint first, count;
+};
+
+tile_range tiles_between(float first, float last) {
+    uint begin = uint(first) >> MAP_TILE_SHIFT;
+    return tile_range(begin, (uint(last) >> MAP_TILE_SHIFT) - begin + 1u);
+}
+
+// The tiles with the texels that interpolation from one coordinate to the other reads.
+tile_range tiles_along(float low, float high, float size, uint wrap) {
+    float reach = 0.5 + TEXEL_SLACK + 2e-6 * max(abs(low), abs(high)) * size;
+    float first = floor(low * size - reach), last = floor(high * size + reach);
+    tile_range all = tiles_between(0.0, size - 1.0);
+    if (!(last - first < (wrap == TILE_WRAP_CLAMP ? 1e9 : size))) // or no number
+        return all;
     if (wrap == TILE_WRAP_CLAMP)
-        return clamp(coordinate, -1.0, 2.0);
-    return wrap == TILE_WRAP_MIRROR ? coordinate - 2.0 * floor(0.5 * coordinate)
-                                    : coordinate - floor(coordinate);
-}
-
-// `texel`: within a period, or one period at most beside it.
-int wrapped(int texel, int size, uint wrap) {
-    if (wrap != TILE_WRAP_CLAMP) {
-        int period = wrap == TILE_WRAP_MIRROR ? 2 * size : size;
-        texel = texel < 0 ? texel + period : texel >= period ? texel - period : texel;
-        texel = texel < size ? texel : 2 * size - 1 - texel;
+        return tiles_between(clamp(first, 0.0, size - 1.0), clamp(last, 0.0, size - 1.0));
+    first = within_period(first, size, wrap);
+    last = within_period(last, size, wrap);
+    if (wrap == TILE_WRAP_MIRROR) {
+        bool turns = (first < size) != (last < size), at_end = first < last;
+        first = first < size ? first : 2.0 * size - 1.0 - first;
+        last = last < size ? last : 2.0 * size - 1.0 - last;
+        return tiles_between(turns && !at_end ? 0.0 : min(first, last),
+                             turns && at_end ? size - 1.0 : max(first, last));
     }
-    return clamp(texel, 0, size - 1);
+    tile_range result = tiles_between(first, last);
+    if (last < first)
+        result.count = min(result.count + all.count, all.count);
+    return result;
 }
 
-// The tiles of the first and the last texel that interpolation at a coordinate reads.
-ivec2 tiles_along(float coordinate, float within, int size, uint wrap) {
-    float place = within * float(size);
-    float reach = 0.5 + min(TEXEL_SLACK + 2e-6 * abs(coordinate) * float(size), float(size));
-    return ivec2(wrapped(int(floor(place - reach)), size, wrap),
-                 wrapped(int(floor(place + reach)), size, wrap)) >> MAP_TILE_SHIFT;
-}
-
+// Loops in place of conditions: lavapipe skips no branch, and atomic operations take as long as a
+// hundred others.
 void mark(uint tile) {
-    if (marks[tile] == 0u)
+    for (uint left = marks[tile] == 0u ? 1u : 0u; left > 0u; --left)
         atomicOr(marks[tile], 1u);
 }
 
-void mark_level(vec2 coordinates, vec2 within, uvec2 wrap, tile_level level) {
-    ivec2 u = tiles_along(coordinates.x, within.x, int(level.width), wrap.x);
-    ivec2 v = tiles_along(coordinates.y, within.y, int(level.height), wrap.y);
-    uint upper = level.first_mark + uint(v.x) * level.columns;
-    uint lower = level.first_mark + uint(v.y) * level.columns;
-    mark(upper + uint(u.x));
-    if (u.y != u.x)
-        mark(upper + uint(u.y));
-    if (v.y != v.x)
-        mark(lower + uint(u.x));
-    if (u.y != u.x && v.y != v.x)
-        mark(lower + uint(u.y));
+void mark_level(vec2 low, vec2 high, uvec2 wrap, tile_level level) {
+    tile_range u = tiles_along(low.x, high.x, float(level.width), wrap.x);
+    tile_range v = tiles_along(low.y, high.y, float(level.height), wrap.y);
+    uint rows = (level.height + uint(MAP_TILE) - 1u) >> MAP_TILE_SHIFT;
+    for (uint i = 0u; i < v.count; ++i) {
+        uint row = v.first + i < rows ? v.first + i : v.first + i - rows;
+        for (uint j = 0u; j < u.count; ++j) {
+            uint column = u.first + j < level.columns ? u.first + j : u.first + j - level.columns;
+            mark(level.first_mark + row * level.columns + column);
+        }
+    }
 }
 
 void mark_area(map_area area, int map) {
@@ -70,20 +89,16 @@ void mark_area(map_area area, int map) {
     int last = int(maps[map].count) - 1;
     int finest = clamp(int(floor(level - LEVEL_SLACK)), 0, last);
     int coarsest = clamp(int(floor(level + LEVEL_SLACK)) + 1, 0, last);
-    uvec2 wrap = uvec2(maps[map].wrap_u, maps[map].wrap_v);
-    for (uint probe = 0u; probe < probes_of(area); ++probe) {
-        vec2 coordinates = probe_position(area, probe);
-        vec2 within =
-            vec2(within_period(coordinates.x, wrap.x), within_period(coordinates.y, wrap.y));
-        for (int i = finest; i <= coarsest; ++i)
-            mark_level(coordinates, within, wrap, maps[map].levels[i]);
-    }
+    vec2 first = probe_position(area, 0u), second = probe_position(area, probes_of(area) - 1u);
+    for (int i = finest; i <= coarsest; ++i)
+        mark_level(min(first, second), max(first, second),
+                   uvec2(maps[map].wrap_u, maps[map].wrap_v), maps[map].levels[i]);
 }
 
 void main() {
     surface_point surface = read_surface();
     for (int map = 0; map < MAP_SHADING; ++map) {
-        if (maps[map].count == 0u)
+        if ((FILTERED_MAPS & (1u << map)) == 0u)
             continue;
         vec2 size = vec2(maps[map].width, maps[map].height);
         if (map == MAP_NORMAL)
