@@ -3,8 +3,8 @@
 
 #include "types.h"
 
-// As many as fit into the uniform buffers that every device has.
-#define LIGHTS_PER_PASS 256
+// A uniform buffer of 4 KiB, whether there are so many or not: few scenes have more lights.
+#define LIGHTS_PER_PASS 64
 
 // A punctual light (std140).
 struct light {

@@ -87,7 +87,8 @@ static lobe_resource map_remainder(lobe_graph *graph, lobe_resource harmonics,
                                          .format = LOBE_FORMAT_RGBA32_FLOAT,
                                          .width = HARMONICS_REMAINDER_WIDTH,
                                          .height = HARMONICS_REMAINDER_WIDTH,
-                                         .retained = true});
+                                         .retained = true,
+                                         .shared = true});
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "irradiance_remainder");
     lobe_pass_read(pass,
                    &(lobe_binding){"environment", means->cube, .range = {means->level, 1, 0, 6}});
