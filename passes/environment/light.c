@@ -356,7 +356,7 @@ void passes_environment_light_bind(const environment_light *light, const filter_
         {.name = "irradiance_block", .resource = light->irradiance.harmonics},
         {.name = "irradiance_remainder_map",
          .resource = light->irradiance.remainder,
-         .sampler = passes_irradiance_remainder_sampler},
+         .sampler = passes_hemispheres_sampler},
         {.name = "environment_block",
          .resource =
              lobe_graph_upload(context->graph, "environment", &constants, sizeof constants)},
@@ -411,8 +411,8 @@ passes_environment_light_bind_material(const environment_light *light,
                                    passes_reflection_table_sampler, context);
     bindings[count++] = bind_table("reflected_lobes_table", light->lobes[own][own],
                                    passes_reflection_table_sampler, context);
-    bindings[count++] = bind_table("hemisphere_moments_map", light->moments,
-                                   passes_hemisphere_moments_sampler, context);
+    bindings[count++] =
+        bind_table("hemisphere_moments_map", light->moments, passes_hemispheres_sampler, context);
     if (!slopes)
         return count;
     bindings[count++] = bind_table("slope_broad_reflection_table",

@@ -107,7 +107,8 @@ static lobe_resource upload_lights(const filter_context *context, light_part par
 
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work) {
-    return (shading_light){.environment = passes_environment_light_build(context, work)};
+    return (shading_light){.punctual = upload_lights(context, passes_light_part(context, 0)),
+                           .environment = passes_environment_light_build(context, work)};
 }
 
 struct frame_constants passes_frame_constants(const filter_context *context,
@@ -306,8 +307,7 @@ static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
         return;
     lobe_resource frame = upload_frame(s, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
-    lobe_pass_read(pass, &(lobe_binding){.name = "light_block",
-                                         .resource = upload_lights(s->context, lights)});
+    lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_maps", .resource = light->shadows.maps});
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "shadow_slopes", .resource = light->shadows.slopes});
@@ -375,6 +375,7 @@ static lobe_resource draw_further(const shading *s, const shading_light *light, 
         (lobe_range){0}, (float[4]){0});
     while (first < s->context->scene->scene->light_count) {
         const light_part part = passes_light_part(s->context, first);
+        punctual.punctual = upload_lights(s->context, part);
         if (one.keep_depth)
             one.depth = copy_depth(graph, depth, one.depth);
         draw_part(s, part, &punctual, &one);

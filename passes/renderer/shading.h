@@ -36,6 +36,7 @@ shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width
 
 /// Everything that lights the scene, shared by all shading passes of a frame.
 typedef struct shading_light {
+    lobe_resource punctual; ///< those that the pass draws, sorted by type
     environment_light environment;
     shadow_maps shadows; ///< of the sample that is drawn next
 } shading_light;

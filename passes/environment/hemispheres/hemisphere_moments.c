@@ -2,9 +2,6 @@
 
 #include "shaders/interface/environment/hemisphere_moments.h"
 
-const lobe_sampler passes_hemisphere_moments_sampler = {
-    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
-
 lobe_resource passes_hemisphere_moments(lobe_graph *graph, const environment_means *means) {
     const struct hemisphere_moments_constants constants = {means->size};
     const uint32_t width = HEMISPHERE_MOMENTS_SIZE + 2;

@@ -3,9 +3,6 @@
 
 #include "passes/environment/hemispheres/means.h"
 
-/// How shaders sample the map: linearly; its border makes that continuous across all edges.
-extern const lobe_sampler passes_hemisphere_moments_sampler;
-
 /// Adds the passes that integrate an environment's light over the hemisphere of every normal, with
 /// all polynomials of the direction up to degree 3: a retained RGBA32_FLOAT image of
 /// HEMISPHERE_MOMENT_LAYERS layers, about 240 KB, in the environment's own space and without its

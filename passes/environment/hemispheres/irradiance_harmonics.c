@@ -6,9 +6,6 @@
 
 #include "shaders/interface/environment/irradiance_harmonics.h"
 
-const lobe_sampler passes_irradiance_remainder_sampler = {
-    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
-
 /// Texels along a face of the level that is projected, at most.
 #define FINEST_WIDTH 64
 

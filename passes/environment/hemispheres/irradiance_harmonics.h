@@ -10,9 +10,6 @@ typedef struct irradiance_maps {
     lobe_resource remainder; ///< what they miss, by normal
 } irradiance_maps;
 
-/// How shading reads the remainder.
-extern const lobe_sampler passes_irradiance_remainder_sampler;
-
 /// Adds the passes that project an environment's irradiance to nine spherical harmonics
 /// (Ramamoorthi, Hanrahan 2001). A graph can hold one of them.
 ///

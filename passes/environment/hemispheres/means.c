@@ -2,6 +2,9 @@
 
 #include "passes/environment/reduction.h"
 
+const lobe_sampler passes_hemispheres_sampler = {
+    .texels = LOBE_SAMPLE_LINEAR, .wrap_u = LOBE_WRAP_CLAMP, .wrap_v = LOBE_WRAP_CLAMP};
+
 /// Texels along a face of the filtered level that is read, at most: its lobes are then so narrow
 /// that they hardly blur integrals over hemispheres.
 #define FINEST_WIDTH 256

@@ -31,4 +31,8 @@ typedef struct environment_means {
 /// blurred by lobes wider than their texels. Call it once in a graph.
 environment_means passes_environment_means(lobe_graph *graph, const irradiance_source *source);
 
+/// How shaders sample maps of what hemispheres have, by normal (lib/light/octahedron.glsl):
+/// linearly; their border makes that continuous across all edges.
+extern const lobe_sampler passes_hemispheres_sampler;
+
 #endif
