@@ -44,17 +44,19 @@ static uint32_t mix(uint32_t digest, const void *bytes, size_t size) {
     return digest;
 }
 
-static bool is_given(const device_scene *scene, const device_material *material) {
-    bool given = false;
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
-        given |=
-            material->maps[map].use && scene->scene->images[material->maps[map].image].on_device;
-    return given;
+/// Of an image that the host gives. What passes of this frame write may be new in every frame.
+static uint32_t mix_given(uint32_t digest, const filter_context *context, int32_t image) {
+    const device_scene *scene = context->scene;
+    if (!scene->scene->images[image].on_device)
+        return digest;
+    const uint64_t content = lobe_graph_content(context->graph, scene->given[image]);
+    return content > 0 ? mix(digest, &content, sizeof content)
+                       : mix(digest, &context->marks->frame, sizeof context->marks->frame);
 }
 
-/// A number, above 0. `given`: the host may give other texels in every frame.
-static uint32_t end_digest(const tile_marks *marks, uint32_t digest, bool given) {
-    if (marks->rebuild || given)
+/// A number, above 0.
+static uint32_t end_digest(const tile_marks *marks, uint32_t digest) {
+    if (marks->rebuild)
         digest = mix(digest, &marks->frame, sizeof marks->frame);
     return digest > 0 ? digest : 1;
 }
@@ -77,13 +79,16 @@ static uint32_t content_of(const filter_context *context, const device_material 
     digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
     digest = mix_colours(digest, material);
     digest = mix(digest, context->settings, sizeof *context->settings);
-    return end_digest(context->marks, digest, is_given(context->scene, material));
+    for (uint32_t map = 0; map < MAP_COUNT; map++)
+        if (material->maps[map].use)
+            digest = mix_given(digest, context, material->maps[map].image);
+    return end_digest(context->marks, digest);
 }
 
 static uint32_t content_of_image(const filter_context *context, int32_t image) {
     const uint32_t version = context->scene->image_versions[image];
-    return end_digest(context->marks, mix(2166136261u, &version, sizeof version),
-                      context->scene->scene->images[image].on_device);
+    const uint32_t digest = mix(2166136261u, &version, sizeof version);
+    return end_digest(context->marks, mix_given(digest, context, image));
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ typedef struct tile_marks {
     /// Of the map of lobes of each material of the scene, and of each image, filtered; the latter
     /// may be NO_TILE_MARKS.
     const uint32_t *first_marks, *first_image_marks;
-    /// Of this frame: what the host gives on the device may differ from frame to frame.
+    /// Of this frame: what passes of the host write may differ from frame to frame.
     uint32_t frame;
     bool rebuild; ///< tiles of earlier frames count as out of date
 } tile_marks;

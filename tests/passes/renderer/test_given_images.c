@@ -517,6 +517,62 @@ static void images_whose_content_stays_are_filtered_once(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// With only the tiles made that pixels read. The host writes its image without saying so, which
+/// only a tile that is made again can show.
+static void tiles_of_content_that_stays_are_made_once(void **state) {
+    static const char *const filters[] = {"mipmap", "lean", "lobes", "moments"};
+    (void)state;
+    host_device host;
+    lobe_device *device;
+    lobe_renderer *renderer = host_renderer_open(&host, &device);
+    lobe_scene *scene = mapped_scene(376);
+    scene->images[0].on_device = true;
+    assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
+    host_image map =
+        host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
+                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    lobe_vulkan_image lent = {.image = map.image,
+                              .format = map.format,
+                              .width = MAP,
+                              .height = MAP,
+                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                              .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                              .content = 1};
+    lobe_renderer_set_content_giver(renderer, give_vulkan, &lent);
+    for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+        static const float slopes[] = {0.2f, -0.2f, -0.2f, 0.2f, -0.2f};
+        static const bool said[] = {true, false, true, true, false};
+        static const uint64_t unnumbered = 4; ///< from this picture on
+        const lobe_filter *filter = filter_named(filters[i]);
+        const lobe_settings settings = settings_of(
+            filter, (const char *[]){"built=seen", i == 3 ? "refit=anew" : "bias=0", NULL});
+        const lobe_render_parameters parameters = {
+            .filter = filter, .settings = &settings, .width = EXTENT, .height = EXTENT};
+        const uint64_t first = lent.content;
+        uint64_t pictures[5];
+        for (size_t n = 0; n < 5; n++) {
+            clear_map(&host, &map, slopes[n]);
+            lent.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+            lent.content = n == unnumbered ? 0 : lent.content + said[n];
+            lobe_frame frame;
+            assert_int_equal(lobe_renderer_render(renderer, &parameters, &frame), LOBE_OK);
+            pictures[n] = image_hash(&frame.radiance);
+            lobe_frame_free(&frame);
+        }
+        if (pictures[1] != pictures[0])
+            fail_msg("%s: tiles were made again", filters[i]);
+        assert_true(pictures[2] != pictures[0]);
+        assert_true(pictures[3] == pictures[0]);
+        assert_true(pictures[4] == pictures[2]);
+        lent.content = first + 10;
+    }
+    lobe_renderer_destroy(&renderer);
+    lobe_device_destroy(&device);
+    host_image_destroy(&host, &map);
+    host_device_close(&host);
+    lobe_scene_destroy(&scene);
+}
+
 /// The host writes one image while lobe reads the other. Each has numbers of its own, which may be
 /// equal, and go back to what they were with the content: pictures show the image that is lent.
 static void two_images_may_take_turns(void **state) {
@@ -650,6 +706,7 @@ int main(void) {
         cmocka_unit_test(an_example_without_metal_says_nothing),
         cmocka_unit_test(images_of_the_hosts_vulkan_are_maps),
         cmocka_unit_test(images_whose_content_stays_are_filtered_once),
+        cmocka_unit_test(tiles_of_content_that_stays_are_made_once),
         cmocka_unit_test(two_images_may_take_turns),
         cmocka_unit_test(mistakes_are_named),
     };
