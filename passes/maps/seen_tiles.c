@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/map_tiles.h"
 
@@ -44,6 +45,17 @@ static uint32_t mix(uint32_t digest, const void *bytes, size_t size) {
     return digest;
 }
 
+/// How base maps are read, and what a mask keeps of them, which the version ignores, too.
+static uint32_t mix_reading(uint32_t digest, const device_scene *scene,
+                            const device_material *material) {
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
+        const lobe_sampler sampler = passes_device_map_sampler(material, map);
+        digest = mix(digest, &sampler, sizeof sampler);
+    }
+    const float mask[] = {passes_mask_alpha(scene, material), material->material->alpha_cutoff};
+    return passes_lobes_are_masked(material) ? mix(digest, mask, sizeof mask) : digest;
+}
+
 /// Of an image that the host gives. What passes of this frame write may be new in every frame.
 static uint32_t mix_given(uint32_t digest, const filter_context *context, int32_t image) {
     const device_scene *scene = context->scene;
@@ -78,6 +90,7 @@ static uint32_t content_of(const filter_context *context, const device_material 
     uint32_t digest = mix(2166136261u, &material->version, sizeof material->version);
     digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
     digest = mix_colours(digest, material);
+    digest = mix_reading(digest, context->scene, material);
     digest = mix(digest, context->settings, sizeof *context->settings);
     for (uint32_t map = 0; map < MAP_COUNT; map++)
         if (material->maps[map].use)

@@ -128,11 +128,10 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
     passes_knobs_specialise(context, &list);
     passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
     passes_specialise(&list, SPECIALISE_FILTERED_MAPS, marked_maps(material));
-    const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
         .fragment_shader = "maps/tile_marking.frag",
-        .cull = material->material->double_sided ? LOBE_CULL_NONE : outside,
+        .cull = passes_batch_cull(scene, batch),
         .depth_test = true,
         .depth_write = !material->masked,
         .constants = &constants,

@@ -446,6 +446,70 @@ static void tiles_follow_factors(void **state) {
     }
 }
 
+/// A square whose mask keeps texels at random.
+static lobe_scene *masked_metal(void) {
+    enum { TEXELS = 64 * 64 };
+    lobe_scene *scene = coloured_metal(64);
+    lobe_material *material = &scene->materials[0];
+    lobe_image alpha = random_map(64, 64, 0, 1, 10);
+    float *colours = scene->images[material->base_colour_map.image].image.texels;
+    for (size_t i = 0; i < TEXELS; i++)
+        colours[4 * i + 3] = ((const float *)alpha.texels)[4 * i];
+    lobe_image_free(&alpha);
+    material->alpha_mask = true;
+    material->alpha_cutoff = 0.3f;
+    return scene;
+}
+
+/// Changes the mask of such a scene, or how its maps are read.
+static void change_reading(lobe_scene *scene, int change) {
+    lobe_material *material = &scene->materials[0];
+    lobe_texture_use *const uses[] = {&material->normal_map, &material->metallic_roughness_map,
+                                      &material->base_colour_map};
+    lobe_mesh *mesh = &scene->meshes[0];
+    material->alpha_cutoff = change >= 1 ? 0.5f : 0.3f;
+    material->base_colour[3] = change == 2 ? 0.8f : 1;
+    mesh->has_colour = change == 3;
+    for (size_t i = 0; i < mesh->vertex_count; i++)
+        mesh->vertices[i].colour[3] = change == 3 ? 0.7f : 1;
+    for (size_t i = 0; i < sizeof uses / sizeof *uses; i++) {
+        uses[i]->wrap_u = change >= 4 ? LOBE_SCENE_WRAP_CLAMP : LOBE_SCENE_WRAP_REPEAT;
+        uses[i]->nearest = change == 5;
+    }
+}
+
+static void tiles_follow_masks_and_samplers(void **state) {
+    enum { CHANGES = 6 };
+    static const char *const filters[] = {"mipmap", "lobes", "moments"};
+    static const char *const settings[] = {NULL};
+    static const uint32_t first = 0;
+    const lobe_scene_changes changes = {
+        .materials = &first, .material_count = 1, .meshes = &first, .mesh_count = 1};
+    fixture *f = *state;
+    for (size_t n = 0; n < sizeof filters / sizeof *filters; n++) {
+        lobe_frame frames[2][CHANGES];
+        for (int seen = 0; seen < 2; seen++) {
+            lobe_scene *scene = masked_metal();
+            assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+            for (int i = 0; i < CHANGES; i++) {
+                change_reading(scene, i);
+                if (i > 0)
+                    assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+                frames[seen][i] = picture(f, scene, filters[n], settings, seen);
+            }
+            assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+            lobe_scene_destroy(&scene);
+        }
+        for (int i = 0; i < CHANGES; i++) {
+            check_equal(&frames[1][i], &frames[0][i], filters[n], (size_t)i);
+            assert_true(i == 0 || image_hash(&frames[0][i].radiance) !=
+                                      image_hash(&frames[0][i - 1].radiance));
+        }
+        for (int i = 0; i < 2 * CHANGES; i++)
+            lobe_frame_free(&frames[i / CHANGES][i % CHANGES]);
+    }
+}
+
 /// Bins go on to change when texels no longer do.
 static void tiles_follow_bins_that_settle(void **state) {
     enum { MOVING = 3, FRAMES = 9 };
@@ -564,6 +628,7 @@ int main(void) {
         cmocka_unit_test(tiles_that_are_not_read_may_hold_anything),
         cmocka_unit_test(tiles_follow_what_they_are_made_from),
         cmocka_unit_test(tiles_follow_factors),
+        cmocka_unit_test(tiles_follow_masks_and_samplers),
         cmocka_unit_test(tiles_follow_bins_that_settle),
         cmocka_unit_test(shared_images_follow_their_texels),
         cmocka_unit_test(surfaces_without_maps_mark_nothing),
