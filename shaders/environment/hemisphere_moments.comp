@@ -9,27 +9,12 @@
 #include "lib/light/cube_texel.glsl"
 #include "lib/light/octahedron.glsl"
 
-const int GROUP = 64;
-layout(local_size_x = GROUP) in;
+layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) uniform sampler2DArray environment;
 layout(set = 0, binding = 1) uniform writeonly image2DArray moments;
 
 layout(push_constant) uniform constants_block { hemisphere_moments_constants constants; };
-
-// Texels of the cube that the group adds next.
-shared vec4 directions[GROUP];
-shared vec4 powers[GROUP]; // radiance times solid angle, solid angle
-
-void load_texel(int index, int size) {
-    int own = int(gl_LocalInvocationID.x), face = index / (size * size);
-    ivec2 texel = ivec2(index % size, index / size % size);
-    bool exists = face < 6;
-    directions[own] = exists ? vec4(cube_texel_direction(face, texel, size), 0.0) : vec4(0.0);
-    powers[own] = exists ? cube_texel_solid_angle(texel, size) *
-                               vec4(texelFetch(environment, ivec3(texel, face), 0).rgb, 1.0)
-                         : vec4(0.0);
-}
 
 void main() {
     const int width = HEMISPHERE_MOMENTS_SIZE + 2;
@@ -39,22 +24,19 @@ void main() {
     int size = int(constants.size);
     mat4 sums[4] = mat4[4](mat4(0.0), mat4(0.0), mat4(0.0), mat4(0.0)); // of uniform light, too
     vec4 mean = vec4(0.0);
-    for (int first = 0; first < 6 * size * size; first += GROUP) {
-        barrier();
-        load_texel(first + int(gl_LocalInvocationID.x), size);
-        barrier();
-        for (int i = 0; i < GROUP; ++i) {
-            vec3 d = directions[i].xyz;
-            vec4 light = max(dot(normal, d), 0.0) * powers[i];
-            mean += powers[i];
-            float xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z, xy = d.x * d.y;
-            mat4 monomials = mat4(vec4(xx * d.x, xx * d.y, xx * d.z, d.x * yy),
-                                  vec4(xy * d.z, d.x * zz, d.y * yy, yy * d.z),
-                                  vec4(d.y * zz, d.z * zz, xx, xy),
-                                  vec4(d.x * d.z, yy, d.y * d.z, zz));
-            for (int c = 0; c < 4; ++c)
-                sums[c] += light[c] * monomials;
-        }
+    for (ivec3 texel = ivec3(0); texel.z < 6; texel = next_cube_texel(texel, size)) {
+        vec3 d = cube_texel_direction(texel.z, texel.xy, size);
+        vec4 power = cube_texel_solid_angle(texel.xy, size) *
+                     vec4(texelFetch(environment, texel, 0).rgb, 1.0);
+        vec4 light = max(dot(normal, d), 0.0) * power;
+        mean += power;
+        float xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z, xy = d.x * d.y;
+        mat4 monomials = mat4(vec4(xx * d.x, xx * d.y, xx * d.z, d.x * yy),
+                              vec4(xy * d.z, d.x * zz, d.y * yy, yy * d.z),
+                              vec4(d.y * zz, d.z * zz, xx, xy),
+                              vec4(d.x * d.z, yy, d.y * d.z, zz));
+        for (int c = 0; c < 4; ++c)
+            sums[c] += light[c] * monomials;
     }
     if (place.y >= width)
         return;

@@ -12,27 +12,13 @@
 #include "lib/light/octahedron.glsl"
 #include "lib/light/spherical_harmonics.glsl"
 
-const int GROUP = 64;
-layout(local_size_x = GROUP) in;
+layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) uniform sampler2DArray environment;
 layout(set = 0, binding = 1, std140) uniform harmonics_block { irradiance_harmonics harmonics; };
 layout(set = 0, binding = 2) uniform writeonly image2D remainder_map;
 
 layout(push_constant) uniform constants_block { irradiance_remainder_constants constants; };
-
-// Texels of the cube that the group adds next.
-shared vec4 directions[GROUP]; // w: solid angle
-shared vec4 powers[GROUP];     // radiance times solid angle; w: its luminance
-
-void load_texel(int index, int size) {
-    int own = int(gl_LocalInvocationID.x), face = index / (size * size);
-    ivec2 texel = ivec2(index % size, index / size % size);
-    float angle = face < 6 ? cube_texel_solid_angle(texel, size) : 0.0;
-    directions[own] = vec4(cube_texel_direction(min(face, 5), texel, size), angle);
-    vec3 power = angle * texelFetch(environment, ivec3(texel, min(face, 5)), 0).rgb;
-    powers[own] = vec4(power, lobe_luminance(power));
-}
 
 void main() {
     const int width = HARMONICS_REMAINDER_WIDTH;
@@ -41,17 +27,15 @@ void main() {
     vec3 normal = octahedron_texel_direction(place, HARMONICS_REMAINDER_SIZE);
     vec4 sum = vec4(0.0);     // w: of uniform light, whose sum is pi but for the cube's texels
     vec2 horizon = vec2(0.0); // luminance below, and in all
-    for (int first = 0; first < 6 * size * size; first += GROUP) {
-        barrier();
-        load_texel(first + int(gl_LocalInvocationID.x), size);
-        barrier();
-        for (int i = 0; i < GROUP; ++i) {
-            float cosine = dot(normal, directions[i].xyz);
-            sum += max(cosine, 0.0) * vec4(powers[i].rgb, directions[i].w);
-            float near = max(1.0 - abs(cosine) / HARMONICS_HORIZON_SINE, 0.0) * powers[i].w;
-            // Texels at the horizon, 0.05 wide, are on both sides.
-            horizon += near * vec2(clamp(0.5 - 20.0 * cosine, 0.0, 1.0), 1.0);
-        }
+    for (ivec3 texel = ivec3(0); texel.z < 6; texel = next_cube_texel(texel, size)) {
+        vec4 power = cube_texel_solid_angle(texel.xy, size) *
+                     vec4(texelFetch(environment, texel, 0).rgb, 1.0);
+        float cosine = dot(normal, cube_texel_direction(texel.z, texel.xy, size));
+        sum += max(cosine, 0.0) * power;
+        float near =
+            max(1.0 - abs(cosine) / HARMONICS_HORIZON_SINE, 0.0) * lobe_luminance(power.rgb);
+        // Texels at the horizon, 0.05 wide, are on both sides.
+        horizon += near * vec2(clamp(0.5 - 20.0 * cosine, 0.0, 1.0), 1.0);
     }
     if (place.y >= width)
         return;

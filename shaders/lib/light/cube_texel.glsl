@@ -28,6 +28,14 @@ vec3 cube_texel_direction(int face, ivec2 texel, int size) {
     return normalize(cube_direction(face, vec2(2 * texel + 1 - size) / float(size)));
 }
 
+// The next texel of a face's row, or the first of the next row or face; z: the face.
+ivec3 next_cube_texel(ivec3 texel, int size) {
+    texel.x += 1;
+    if (texel.x == size)
+        texel = ivec3(0, texel.y + 1, texel.z);
+    return texel.y == size ? ivec3(0, 0, texel.z + 1) : texel;
+}
+
 // arctan(tangent) for a tangent in [0, 1/sqrt(3)], relative error 2.5e-8 (Remez). Vulkan allows a
 // driver's own an error of 4096 units in the last place.
 float arctangent_of_small(float tangent) {
