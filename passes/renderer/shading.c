@@ -80,35 +80,33 @@ static void fill_light(const lobe_light *source, struct light *light) {
     light->cone[1] = -outer * light->cone[0];
 }
 
-/// Those of one part of the scene's lights, which are sorted by type.
-static lobe_resource upload_lights(const filter_context *context, light_part part) {
-    static const lobe_light_type order[] = {LOBE_LIGHT_DIRECTIONAL, LOBE_LIGHT_POINT,
-                                            LOBE_LIGHT_SPOT};
+/// The lights of the part that begins at `cursor`, which moves behind it.
+static lobe_resource upload_lights(const filter_context *context, light_cursor *cursor,
+                                   light_part part) {
     const lobe_scene *scene = context->scene->scene;
     struct light lights[LIGHTS_PER_PASS] = {{.position = {0}}};
-    uint32_t number = 0;
-    shadow_plan plan = passes_shadow_plan(context);
-    for (size_t type = 0; type < LIGHT_TYPES; type++) {
-        for (size_t i = 0; i < scene->light_count; i++) {
-            if (scene->lights[i].type != order[type])
-                continue;
-            const uint32_t first_view = plan.layers;
-            const uint32_t views = passes_shadow_plan_take(&plan, &scene->lights[i]);
-            const uint32_t place = number++ - part.first; // wraps around before the part
-            if (place >= part.count)
-                continue;
-            fill_light(&scene->lights[i], &lights[place]);
-            lights[place].cone[2] = (float)first_view;
-            lights[place].cone[3] = (float)views;
+    for (uint32_t number = 0; number < part.count;) {
+        if (cursor->index == scene->light_count) {
+            cursor->type++;
+            cursor->index = 0;
         }
+        const lobe_light *light = &scene->lights[cursor->index++];
+        if (light->type != cursor->type)
+            continue;
+        struct light *own = &lights[number++];
+        fill_light(light, own);
+        own->cone[2] = (float)cursor->shadows.layers;
+        own->cone[3] = (float)passes_shadow_plan_take(&cursor->shadows, light);
     }
     return lobe_graph_upload(context->graph, "lights", lights, sizeof lights);
 }
 
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work) {
-    return (shading_light){.punctual = upload_lights(context, passes_light_part(context, 0)),
+    shading_light light = {.further = {.shadows = passes_shadow_plan(context)},
                            .environment = passes_environment_light_build(context, work)};
+    light.punctual = upload_lights(context, &light.further, passes_light_part(context, 0));
+    return light;
 }
 
 struct frame_constants passes_frame_constants(const filter_context *context,
@@ -375,7 +373,7 @@ static lobe_resource draw_further(const shading *s, const shading_light *light, 
         (lobe_range){0}, (float[4]){0});
     while (first < s->context->scene->scene->light_count) {
         const light_part part = passes_light_part(s->context, first);
-        punctual.punctual = upload_lights(s->context, part);
+        punctual.punctual = upload_lights(s->context, &punctual.further, part);
         if (one.keep_depth)
             one.depth = copy_depth(graph, depth, one.depth);
         draw_part(s, part, &punctual, &one);

@@ -34,9 +34,17 @@ typedef struct shading_selection {
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
                                                bool aov);
 
+/// A place in a scene's lights, sorted by type.
+typedef struct light_cursor {
+    lobe_light_type type;
+    size_t index;        ///< of the scene's
+    shadow_plan shadows; ///< of the lights before
+} light_cursor;
+
 /// Everything that lights the scene, shared by all shading passes of a frame.
 typedef struct shading_light {
     lobe_resource punctual; ///< those that the pass draws, sorted by type
+    light_cursor further;   ///< the first of those that it does not
     environment_light environment;
     shadow_maps shadows; ///< of the sample that is drawn next
 } shading_light;

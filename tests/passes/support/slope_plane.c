@@ -117,20 +117,21 @@ void slope_plane_pair(int pair, double outgoing[3], double incoming[3]) {
     slope_plane_direction(slope_plane_angles[pair % 4], 0.4 + 0.7 * pair, incoming);
 }
 
-enum { ROWS = 40, COLUMNS = 60 };
+enum { FURNACE_SUNS = 1024 };
 
-/// Suns on a grid of equal solid angles.
+/// Suns of equal solid angles.
 double slope_plane_furnace(fixture *f, const lobe_material *material, const lobe_image *normals,
                            const char *filter, const char *setting, double degrees) {
     double outgoing[3];
     slope_plane_direction(degrees, 0.3, outgoing);
     lobe_material mapped;
     lobe_scene *scene = slope_plane(material, normals, outgoing, &mapped);
-    for (int i = 0; i < ROWS * COLUMNS; i++) {
-        double height = (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS) / COLUMNS;
-        double radius = sqrt(1 - height * height);
+    // A spiral of the golden angle: no ring of suns misses or meets a narrow lobe as a whole.
+    for (int i = 0; i < FURNACE_SUNS; i++) {
+        const double height = (i + 0.5) / FURNACE_SUNS, azimuth = M_PI * (3 - sqrt(5)) * i;
+        const double radius = sqrt(1 - height * height);
         slope_plane_add_sun(scene, (double[]){radius * cos(azimuth), radius * sin(azimuth), height},
-                            2 * M_PI / (ROWS * COLUMNS));
+                            2 * M_PI / FURNACE_SUNS);
     }
     float colour[3];
     slope_plane_draw(f, scene, filter, setting, colour);
