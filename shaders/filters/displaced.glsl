@@ -681,24 +681,29 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
 
 // The part of what the facets of a bin mirror to the viewer that comes from above the relief, under
 // an even sky: masked as a sun is, in seven directions that they mirror, nodes of normals that are
-// Gaussian in the plane (exact for polynomials of degree 5).
-float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen) {
+// Gaussian in the plane (exact for polynomials of degree 5). `hidden`: the sum of these directions,
+// each as long as the part of it that other facets hide.
+float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen, out vec3 hidden) {
     const uint NODES = 7u;
     vec2 place = plane_from_direction(normalize(seen.mean));
     float x = sqrt(max(seen.covariance.x, 1e-12)), shear = seen.covariance.z / x;
     float y = sqrt(max(seen.covariance.y - shear * shear, 1e-12));
     float to_viewer = 1.0 + depth * lambda_of_seen(drawn.seen), sum = 0.0;
+    hidden = vec3(0.0);
     for (uint i = 0u; i < NODES; ++i) {
         float angle = PI / 3.0 * float(i);
         vec2 node = i < 6u ? 2.0 * vec2(cos(angle), sin(angle)) : vec2(0.0);
         vec3 normal = direction_from_plane(place + vec2(x * node.x, shear * node.x + y * node.y));
         vec3 incoming = reflect(-drawn.viewer, normal);
-        if (incoming.z <= 0.0)
-            continue;
-        float open = seen_part(facing_area(groups, incoming), incoming);
-        sum += (i < 6u ? 1.0 / 12.0 : 0.5) / (to_viewer + depth * lambda_of_seen(open));
+        float weight = i < 6u ? 1.0 / 12.0 : 0.5, lit = 0.0;
+        if (incoming.z > 0.0) {
+            float open = seen_part(facing_area(groups, incoming), incoming);
+            lit = to_viewer / (to_viewer + depth * lambda_of_seen(open));
+        }
+        sum += weight * lit;
+        hidden += weight * (1.0 - lit) * incoming;
     }
-    return to_viewer * sum;
+    return sum;
 }
 
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
@@ -712,8 +717,29 @@ struct mirroring_bins {
     float areas[FACET_BINS];  // shadowed as well, of one width of microfacets
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
     float shown;                // the sum of areas
-    float facets;               // the area of all facets, over that of the carrier
+    vec3 sent_on;               // see directions_from_second()
 };
+
+// Light that goes on in a beam of directions, from any facets that it meets: the mean of them, as
+// long as they are alike.
+vec3 directions_from_second(facet_group groups[FACET_BINS], vec3 beam) {
+    vec3 direction = normalize(beam + vec3(0.0, 0.0, -1e-9)), sum = vec3(0.0);
+    float area = 1e-6;
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        if (groups[k].size <= 1e-4)
+            continue;
+        normal_spread normals = normals_of(groups[k]);
+        float share, cosine = groups[k].size * mean_facing_cosine(normals, -direction);
+        normals = seen_normals(normals, -direction, share);
+        vec3 normal = normalize(normals.mean);
+        float between = dot(normal, direction);
+        // Directions turn twice as far as normals, across the plane of both less.
+        float spread = normals.covariance.x + normals.covariance.y;
+        sum += cosine * exp(-spread * (1.0 + between * between)) * reflect(direction, normal);
+        area += cosine;
+    }
+    return sum * (length(beam) / area);
+}
 
 // All but the areas of one width.
 mirroring_bins find_bins(surface_point surface) {
@@ -723,11 +749,10 @@ mirroring_bins find_bins(surface_point surface) {
         bins.groups[k] = facets_of_bin(surface, area, k);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
     find_depths(bins.groups, bins.depths);
-    bins.facets = 0.0;
-    float facing = 0.0, masked = 0.0;
+    float facing = 0.0, masked = 0.0, kept = 1e-6;
+    bins.sent_on = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k) {
         float size = bins.groups[k].size;
-        bins.facets += size;
         normal_spread normals = normals_of(bins.groups[k]);
         normal_spread seen = seen_normals(normals, drawn.viewer, bins.shares[k]);
         bins.seen[k] = 0.0;
@@ -737,8 +762,15 @@ mirroring_bins find_bins(surface_point surface) {
         bins.seen[k] = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
         facing += cosine;
         masked += bins.seen[k];
-        bins.lit[k] = lit_part(bins.groups, bins.depths[k], seen);
+        vec3 hidden;
+        bins.lit[k] = lit_part(bins.groups, bins.depths[k], seen, hidden);
+        float part = bins.seen[k] * (1.0 - bins.lit[k]);
+        if (part <= 1e-6)
+            continue;
+        kept += part;
+        bins.sent_on += directions_from_second(bins.groups, bins.seen[k] * hidden);
     }
+    bins.sent_on /= kept;
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
     for (uint k = 0u; k < FACET_BINS; ++k)
@@ -804,7 +836,8 @@ void find_axis_of_sent_on(mirroring_bins bins) {
     float roughness = 0.0;
     for (uint i = 0u; i < WIDTHS; ++i)
         roughness += drawn.shares[i] * roughness_from_parameter(DISTRIBUTION, drawn.widths[i]);
-    drawn.sent_on = find_sent_on(drawn.viewer, bins.facets - 1.0, roughness);
+    vec3 slopes = moments_of_slopes(bins.groups);
+    drawn.sent_on = find_sent_on(bins.sent_on, sqrt(0.5 * (slopes.x + slopes.y)), roughness);
 }
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
