@@ -51,8 +51,8 @@ void weigh_sent_on(inout sent_on_lobe lobe) {
 }
 
 // `mean`: of the directions to which light goes from a second facet. `slope`: the rms of the
-// relief's, each way. The constants were chosen on seven reliefs (Gaussian slopes of 0.3, 0.6 and 1,
-// ridges, cobbles, waves and scales) of roughness 0.35: not the least error of all light, which
+// relief's, each way. The constants were chosen on seven reliefs of roughness 0.35 (Gaussian slopes
+// of 0.3, 0.6 and 1, ridges, cobbles, waves and scales): not the least error of all light, which
 // broader lobes have, but little of light to the side, and of low light on waves of slope 0.2.
 sent_on_lobe find_sent_on(vec3 mean, float slope, float roughness) {
     float alpha = roughness * roughness;
