@@ -230,6 +230,7 @@ static known_member known[] = {
     MEMBER(wu_step, level, 0),
     MEMBER(wu_step, samples, 1),
     MEMBER(wu_step, one_way, 2),
+    MEMBER(wu_step, alike, 3),
     MEMBER(frame_constants, world_to_clip, 0),
     MEMBER(frame_constants, world_to_camera, 1),
     MEMBER(frame_constants, eye, 2),

@@ -62,7 +62,7 @@ lobe_resource passes_wu_buffer(const wu_build *build, const char *name, uint64_t
 /// One that later parts of the work read, too.
 lobe_resource passes_wu_shared_buffer(const wu_build *build, const char *name, uint64_t bytes);
 uint32_t passes_wu_path_count(const wu_build *build);
-/// Directions that are kept of each sample: those of the table, filled up to a multiple of four.
+/// Directions that are kept of each sample: those of the table, filled up to a multiple of eight.
 uint32_t passes_wu_row(const wu_build *build);
 
 /// The paths of light over the relief, and what they bring from each direction to each.

@@ -2,7 +2,7 @@
 
 uint32_t passes_wu_row(const wu_build *build) {
     const uint32_t angular = build->models.constants.angular;
-    return (angular * angular + 3) & ~3u;
+    return (angular * angular + 7) & ~7u;
 }
 
 static void add_vertices(wu_build *build) {
@@ -63,14 +63,16 @@ uint64_t passes_wu_pair_bytes(const wu_build *build) {
 lobe_resource passes_wu_add_pairs(const wu_build *build, lobe_resource means,
                                   const wu_samples *samples) {
     const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
-    const uint32_t blocks = passes_wu_row(build) / 4;
+    const uint32_t blocks = passes_wu_row(build) / 8;
     lobe_pass *pass = passes_wu_pass(build, "pair_means");
     lobe_pass_read(pass, &(lobe_binding){.name = "left_block", .resource = samples->left});
     lobe_pass_read(pass, &(lobe_binding){.name = "right_block", .resource = samples->right});
     means = lobe_pass_write(pass, &(lobe_binding){.name = "pair_block", .resource = means});
     passes_wu_dispatch(build, pass, "filters/wu/pair_means.comp",
                        (uint32_t[]){patches * blocks * blocks, 1},
-                       &(struct wu_step){.samples = samples->count, .one_way = samples->one_way});
+                       &(struct wu_step){.samples = samples->count,
+                                         .one_way = samples->one_way,
+                                         .alike = samples->left.index == samples->right.index});
     return means;
 }
 

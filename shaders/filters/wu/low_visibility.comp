@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Which facets of the coarse relief's cell under each path's start see each direction of the table:
-// bits, lower and upper. A thread for each path and direction.
+// Which directions each path's start sees: the facet itself, and those of the coarse relief's cell
+// under it. Four directions a word, WU_SIGHT_BITS each. A thread for each path and word.
 
 #include "filters/wu/cells.glsl"
 #include "filters/wu/directions.glsl"
@@ -11,15 +11,22 @@
 layout(local_size_x = 64) in;
 
 layout(push_constant) uniform step_block { wu_step stage; };
+layout(set = 0, binding = 4, std430) readonly buffer first_block { vec4 first[]; };
 layout(set = 0, binding = 5, std430) writeonly buffer sight_block { uint sights[]; };
 
 void main() {
-    uint directions = filled_direction_count();
-    uint index = gl_GlobalInvocationID.x / directions, which = gl_GlobalInvocationID.x % directions;
+    uint words = filled_direction_count() / 4u;
+    uint index = gl_GlobalInvocationID.x / words, first_of_word = gl_GlobalInvocationID.x % words;
     if (index >= path_count())
         return;
-    uint cell = cell_at(wu.levels[stage.level], path_start(index));
-    vec2 areas = seen_areas(cell, direction_of_index(min(which, direction_count() - 1u),
-                                                     wu.angular));
-    sights[gl_GlobalInvocationID.x] = (areas.x > 0.0 ? 1u : 0u) + (areas.y > 0.0 ? 2u : 0u);
+    uint cell = cell_at(wu.levels[stage.level], path_start(index)), word = 0u;
+    vec4 light = first[gl_GlobalInvocationID.x];
+    for (uint i = 0u; i < 4u; ++i) {
+        uint which = min(4u * first_of_word + i, direction_count() - 1u);
+        vec2 areas = seen_areas(cell, direction_of_index(which, wu.angular));
+        uint seen = (areas.x > 0.0 ? WU_SEES_LOWER : 0u) + (areas.y > 0.0 ? WU_SEES_UPPER : 0u) +
+                    (light[i] > 0.0 ? WU_SEES_FACET : 0u);
+        word |= seen << (WU_SIGHT_BITS * i);
+    }
+    sights[gl_GlobalInvocationID.x] = word;
 }

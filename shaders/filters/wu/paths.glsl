@@ -11,13 +11,13 @@ struct path_point {
     vec4 normal;
 };
 
-// Directions of the table, and with those that fill up the last four of a sample.
+// Directions of the table, and with those that fill up the last eight of a sample.
 uint direction_count() {
     return wu.angular * wu.angular;
 }
 
 uint filled_direction_count() {
-    return (direction_count() + 3u) & ~3u;
+    return (direction_count() + 7u) & ~7u;
 }
 
 uint path_count() {

@@ -93,10 +93,17 @@ struct wu_step {
     uint level;
     uint samples; // of each patch
     uint one_way; // pair_means: 1: the first direction is the light's, the second the viewer's
-    uint padding_1;
+    uint alike;   // pair_means: 1: both sides are the same, and so are products of either order
 };
 INTERFACE_SIZE(wu_step, 16)
 INTERFACE_OFFSET(wu_step, samples, 4)
+
+// Which directions are seen from a point of a patch: by the coarse relief's two facets, and by the
+// facet of the map. Bits of each direction.
+#define WU_SEES_LOWER 1u
+#define WU_SEES_UPPER 2u
+#define WU_SEES_FACET 4u
+#define WU_SIGHT_BITS 8u
 
 // Normals drawn for each point of a patch.
 #define WU_DRAWS 4
