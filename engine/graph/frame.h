@@ -89,6 +89,7 @@ typedef struct engine_graph_command {
     uint32_t index_access;              ///< draw: of the index buffer, or NONE
     uint32_t indirect_access;           ///< of the buffer with the counts, or NONE
     size_t indirect_offset;             ///< bytes
+    char *number;                       ///< dispatch: where in its constants, or NULL
     uint32_t source_access, target_access;
     float value[4];
     uint64_t read_back_offset, read_back_size; ///< bytes

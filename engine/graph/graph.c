@@ -95,8 +95,10 @@ void lobe_graph_begin_aside(lobe_graph *graph) {
 
 static lobe_result analyse(lobe_graph *graph) {
     engine_dependency_graph *dependencies = &graph->frame.dependencies;
-    if (!engine_dependency_link(dependencies) || !engine_dependency_order(dependencies) ||
-        !engine_dependency_cull(dependencies))
+    if (!engine_dependency_link(dependencies) || !engine_dependency_order(dependencies))
+        return engine_graph_fail_dependency(graph);
+    engine_graph_number_content(graph); // declare/signature.c
+    if (!engine_dependency_cull(dependencies))
         return engine_graph_fail_dependency(graph);
     engine_dependency_find_lifetimes(dependencies);
     return LOBE_OK;

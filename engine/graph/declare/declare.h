@@ -71,6 +71,10 @@ lobe_result engine_graph_check_host_buffers(lobe_graph *graph);
 /// names, which the dependency graph adds (signature.c).
 lobe_result engine_graph_sign_passes(lobe_graph *graph);
 
+/// Puts numbers of content (lobe_dispatch.numbered) where passes want them, and signs these again
+/// (signature.c). Comes after the order of the passes.
+void engine_graph_number_content(lobe_graph *graph);
+
 /// Gets the pipelines of the passes that run (binding.c).
 lobe_result engine_graph_find_pipelines(lobe_graph *graph);
 /// The same, with the callback of lobe_graph_prepare.

@@ -241,15 +241,48 @@ static void bind_indirect(lobe_pass *pass, engine_graph_command *command, lobe_r
     arguments->usage |= VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 }
 
-static bool copy_dispatch(engine_arena *arena, const lobe_dispatch *dispatch, lobe_dispatch *copy) {
+/// The number that takes the place of one of the constants.
+static void want_number(lobe_pass *pass, engine_graph_command *command, char *constants) {
+    engine_dependency_graph *dependencies = &pass->graph->frame.dependencies;
+    const lobe_dispatch *dispatch = &command->dispatch;
+    if (dispatch->numbered.version == 0)
+        return;
+    const engine_graph_resource *made = engine_graph_find_resource(pass, dispatch->numbered);
+    if (!made)
+        return;
+    uint32_t *numbered_by = &dependencies->resources[dispatch->numbered.index].numbered_by;
+    if (dispatch->constants_size < sizeof(uint32_t) ||
+        dispatch->number_offset > dispatch->constants_size - sizeof(uint32_t))
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': the number of resource '%s' is to be at byte %zu of %zu",
+                        pass->name, made->name, dispatch->number_offset, dispatch->constants_size);
+    else if (*numbered_by != ENGINE_DEPENDENCY_NONE)
+        lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
+                        "pass '%s': pass '%s' has the number of resource '%s'", pass->name,
+                        dependencies->passes[*numbered_by].name, made->name);
+    else {
+        *numbered_by = pass->index;
+        dependencies->numbers = true;
+        command->number = constants + dispatch->number_offset;
+    }
+}
+
+static bool copy_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch,
+                          engine_graph_command *command) {
+    engine_arena *arena = &pass->graph->frame.arena;
+    lobe_dispatch *copy = &command->dispatch;
     *copy = *dispatch;
     copy->shader = engine_arena_copy_text(arena, dispatch->shader);
-    copy->constants = engine_arena_copy(arena, dispatch->constants, dispatch->constants_size);
+    char *constants = engine_arena_copy(arena, dispatch->constants, dispatch->constants_size);
+    copy->constants = constants;
     copy->specialisation =
         engine_arena_copy(arena, dispatch->specialisation,
                           dispatch->specialisation_count * sizeof *dispatch->specialisation);
     copy->bindings = NULL;
-    return copy->shader && copy->constants && copy->specialisation;
+    if (!copy->shader || !constants || !copy->specialisation)
+        return false;
+    want_number(pass, command, constants);
+    return true;
 }
 
 void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
@@ -259,7 +292,7 @@ void lobe_pass_dispatch(lobe_pass *pass, const lobe_dispatch *dispatch) {
     engine_graph_command *command = engine_graph_add_command(pass, ENGINE_GRAPH_DISPATCH);
     if (!command)
         return;
-    if (!copy_dispatch(&pass->graph->frame.arena, dispatch, &command->dispatch)) {
+    if (!copy_dispatch(pass, dispatch, command)) {
         engine_graph_fail_memory(pass->graph);
         return;
     }

@@ -1,5 +1,7 @@
 #include "engine/graph/declare/declare.h"
 
+#include <string.h>
+
 static engine_stamp sign_sampler(engine_stamp stamp, const lobe_sampler *sampler) {
     const uint32_t modes[] = {sampler->texels, sampler->levels, sampler->wrap_u, sampler->wrap_v};
     stamp = engine_stamp_bytes(stamp, modes, sizeof modes);
@@ -88,4 +90,30 @@ lobe_result engine_graph_sign_passes(lobe_graph *graph) {
     for (uint32_t i = 0; i < graph->frame.dependencies.pass_count; i++)
         graph->frame.dependencies.passes[i].signature = sign_pass(graph->frame.passes[i]);
     return LOBE_OK;
+}
+
+static bool set_number(const engine_dependency_graph *dependencies,
+                       const engine_graph_command *command) {
+    if (!command->number)
+        return false;
+    const engine_stamp wide = dependencies->resources[command->dispatch.numbered.index].number;
+    const uint32_t folded = (uint32_t)(wide ^ wide >> 32), number = folded > 0 ? folded : 1;
+    memcpy(command->number, &number, sizeof number);
+    return true;
+}
+
+void engine_graph_number_content(lobe_graph *graph) {
+    engine_dependency_graph *dependencies = &graph->frame.dependencies;
+    if (!dependencies->numbers)
+        return;
+    engine_dependency_number(dependencies);
+    for (uint32_t i = 0; i < dependencies->pass_count; i++) {
+        const lobe_pass *pass = graph->frame.passes[i];
+        bool numbered = false;
+        for (const engine_graph_command *command = pass->first_command; command;
+             command = command->next)
+            numbered |= set_number(dependencies, command);
+        if (numbered)
+            dependencies->passes[i].signature = sign_pass(pass);
+    }
 }

@@ -13,57 +13,6 @@ static bool reads(const engine_dependency_access *access) {
     return access->kind != ENGINE_ACCESS_WRITE;
 }
 
-/// Of one that modifies what evolves, the graph's own number: what it leaves depends on frames of
-/// this graph.
-static engine_stamp stamp_read(const engine_dependency_graph *graph,
-                               const engine_dependency_access *access, engine_stamp stamp) {
-    if (access->kind == ENGINE_ACCESS_MODIFY && graph->resources[access->resource].evolves)
-        return engine_stamp_mix(stamp, graph->number);
-    for (uint32_t s = 0; s < engine_access_size(access); s++)
-        stamp = engine_stamp_mix(
-            stamp, engine_dependency_content(graph, engine_access_source(graph, access, s),
-                                             access->resource,
-                                             engine_access_subresource(graph, access, s)));
-    return stamp;
-}
-
-/// The stamp of a pass that modifies what settles, from the one it has without that: another in
-/// each frame until it has come to rest.
-static engine_stamp stamp_settling(engine_dependency_graph *graph,
-                                   const engine_dependency_access *access, engine_stamp change) {
-    engine_dependency_resource *resource = &graph->resources[access->resource];
-    const engine_settling *settled = &resource->settled;
-    if (access->kind != ENGINE_ACCESS_MODIFY || resource->settles == 0)
-        return change;
-    const bool begins = engine_access_source(graph, access, 0) != ENGINE_DEPENDENCY_NONE;
-    const bool same = settled->change == change;
-    const bool rests = settled->rests || settled->runs == resource->settles;
-    const uint32_t runs = begins ? resource->settles : same ? settled->runs + !rests : 0;
-    resource->settling = (engine_settling){change, runs, same && settled->rests};
-    return engine_stamp_mix(change, runs);
-}
-
-/// In topological order, so that the stamps of everything a pass reads are known.
-static void stamp_passes(engine_dependency_graph *graph) {
-    for (uint32_t i = 0; i < graph->order_count; i++) {
-        engine_dependency_pass *pass = &graph->passes[graph->order[i]];
-        engine_stamp stamp = pass->signature;
-        for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
-             a = graph->accesses[a].next) {
-            const engine_dependency_access *access = &graph->accesses[a];
-            stamp = engine_stamp_mix(stamp, access->kind);
-            stamp = engine_stamp_bytes(stamp, &access->range, sizeof access->range);
-            stamp = engine_stamp_mix(stamp, graph->resources[access->resource].identity);
-            if (reads(access))
-                stamp = stamp_read(graph, access, stamp);
-        }
-        for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
-             a = graph->accesses[a].next)
-            stamp = stamp_settling(graph, &graph->accesses[a], stamp);
-        pass->stamp = stamp;
-    }
-}
-
 static uint32_t source_before(const engine_dependency_graph *graph, uint32_t writer,
                               uint32_t subresource) {
     const engine_dependency_access *access = &graph->accesses[writer];
@@ -210,7 +159,7 @@ bool engine_dependency_cull(engine_dependency_graph *graph) {
                               sizeof *graph->running))
         return engine_dependency_fail(graph,
                                       (engine_dependency_fault){.kind = ENGINE_FAULT_MEMORY});
-    stamp_passes(graph);
+    engine_dependency_stamp(graph);
     mark_live(graph);
     propagate_demand(graph, true);
     mark_skipped(graph);

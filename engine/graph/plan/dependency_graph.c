@@ -31,6 +31,7 @@ void engine_dependency_graph_reset(engine_dependency_graph *graph) {
     graph->cycle_count = 0;
     graph->barrier_count = 0;
     graph->subresource_count = 0;
+    graph->numbers = false;
     engine_arena_reset(&graph->scratch);
     graph->fault = (engine_dependency_fault){0};
 }
@@ -60,7 +61,8 @@ uint32_t engine_dependency_add_resource(engine_dependency_graph *graph,
     engine_dependency_resource *added = &graph->resources[graph->resource_count];
     *added = *resource;
     added->version = added->settled_version = 1;
-    added->last_writer = ENGINE_DEPENDENCY_NONE;
+    added->last_writer = added->numbered_by = ENGINE_DEPENDENCY_NONE;
+    added->number = ENGINE_STAMP_NONE;
     added->first_subresource = graph->subresource_count;
     added->first_position = added->last_position = ENGINE_DEPENDENCY_NONE;
     graph->subresource_count += added->levels * added->layers;

@@ -19,6 +19,7 @@
 ///
 ///     engine_dependency_link             sources of content, hazards between passes  (validate.c)
 ///     engine_dependency_order            topological order                           (order.c)
+///     engine_dependency_number           numbers of content, if a pass wants one     (stamp.c)
 ///     engine_dependency_cull             which passes run, are culled, are skipped   (cull.c)
 ///     engine_dependency_find_lifetimes   first and last use of each resource         (lifetime.c)
 ///     engine_dependency_derive_barriers  transitions and memory dependencies         (barrier.c)
@@ -109,7 +110,9 @@ typedef struct engine_dependency_resource {
     uint32_t last_writer;                   ///< pass that made `version`
     uint32_t first_subresource;             ///< index into the graph's arrays by subresource
     uint32_t first_position, last_position; ///< of its lifetime; NONE: no running pass uses it
-    engine_settling settling;               ///< what the pass of this frame leaves if it runs
+    uint32_t numbered_by;                   ///< pass that wants `number`, or NONE
+    engine_stamp number;      ///< digest of what passes make it from, see engine_dependency_number
+    engine_settling settling; ///< what the pass of this frame leaves if it runs
 } engine_dependency_resource;
 
 typedef struct engine_dependency_pass {
@@ -176,6 +179,7 @@ typedef struct engine_dependency_graph {
     uint32_t cycle_count, cycle_capacity;
     uint32_t barrier_count, barrier_capacity;
     uint32_t subresource_count, end_layout_capacity;
+    bool numbers;         ///< some resource is `numbered_by` a pass
     engine_arena scratch; ///< memory for the steps
 
     engine_dependency_fault fault; ///< the first one
@@ -206,6 +210,12 @@ bool engine_dependency_add_edge(engine_dependency_graph *graph, uint32_t from, u
 
 bool engine_dependency_link(engine_dependency_graph *graph);
 bool engine_dependency_order(engine_dependency_graph *graph);
+/// Gives all passes their stamps; engine_dependency_cull does so, too.
+void engine_dependency_stamp(engine_dependency_graph *graph);
+/// Gives each resource that is `numbered_by` a pass its number, after the order and before that
+/// pass's signature is complete: the same while the passes that write the resource do the same with
+/// the same content. What it held before does not count, nor what the pass with the number uses.
+void engine_dependency_number(engine_dependency_graph *graph);
 bool engine_dependency_cull(engine_dependency_graph *graph);
 void engine_dependency_find_lifetimes(engine_dependency_graph *graph);
 /// Gives all accesses of a pass that read the same subresource one layout, then derives barriers.

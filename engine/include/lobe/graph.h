@@ -262,6 +262,14 @@ typedef struct lobe_dispatch {
     /// `threads`. All zero: none.
     lobe_resource indirect;
     size_t indirect_offset;
+    /// Something of which passes make parts, while the rest stays as earlier frames left it. A
+    /// number (uint32, above 0) takes the place of that at `number_offset` (bytes) of `constants`:
+    /// another one where the passes that write `numbered` in this frame are others, or do it with
+    /// other constants or content. The dispatch can then tell which parts are out of date. What
+    /// `numbered` held before does not count, nor the content of what this pass binds, which is for
+    /// its shader to see. One dispatch of a frame takes the number of a resource. All zero: none.
+    lobe_resource numbered;
+    size_t number_offset;
 } lobe_dispatch;
 
 /// Adds a dispatch. Dispatches of one pass must not depend on each other.
