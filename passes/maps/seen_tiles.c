@@ -1,8 +1,8 @@
 #include "passes/maps/seen_tiles.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
-#include "passes/upload/colours/mask_alpha.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/map_tiles.h"
 
@@ -36,75 +36,6 @@ uint32_t passes_map_tile_count(uint32_t width, uint32_t height) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Content
-
-static uint32_t mix(uint32_t digest, const void *bytes, size_t size) {
-    const uint8_t *byte = bytes;
-    for (size_t i = 0; i < size; i++)
-        digest = (digest ^ byte[i]) * 16777619u; // FNV-1a
-    return digest;
-}
-
-/// How base maps are read, and what a mask keeps of them, which the version ignores, too.
-static uint32_t mix_reading(uint32_t digest, const device_scene *scene,
-                            const device_material *material) {
-    for (uint32_t map = 0; map < MAP_COUNT; map++) {
-        const lobe_sampler sampler = passes_device_map_sampler(material, map);
-        digest = mix(digest, &sampler, sizeof sampler);
-    }
-    const float mask[] = {passes_mask_alpha(scene, material), material->material->alpha_cutoff};
-    return passes_lobes_are_masked(material) ? mix(digest, mask, sizeof mask) : digest;
-}
-
-/// Of an image that the host gives. What passes of this frame write may be new in every frame.
-static uint32_t mix_given(uint32_t digest, const filter_context *context, int32_t image) {
-    const device_scene *scene = context->scene;
-    if (!scene->scene->images[image].on_device)
-        return digest;
-    const uint64_t content = lobe_graph_content(context->graph, scene->given[image]);
-    return content > 0 ? mix(digest, &content, sizeof content)
-                       : mix(digest, &context->marks->frame, sizeof context->marks->frame);
-}
-
-/// A number, above 0.
-static uint32_t end_digest(const tile_marks *marks, uint32_t digest) {
-    if (marks->rebuild)
-        digest = mix(digest, &marks->frame, sizeof marks->frame);
-    return digest > 0 ? digest : 1;
-}
-
-/// The factors of a material's colours, which its version ignores, where lobes may have colours of
-/// their own or count by what they mirror: by a map of metal wherever its colours lie (base lobes).
-static uint32_t mix_colours(uint32_t digest, const device_material *material) {
-    const struct material_constants *values = &material->values;
-    const bool coloured = material->maps[MAP_BASE_COLOUR].use || material->maps[MAP_SPECULAR].use;
-    if (!material->metallic_varies && !(coloured && passes_colours_lie_under_lobes(material)))
-        return digest;
-    digest = mix(digest, &values->base_colour, sizeof values->base_colour);
-    digest = mix(digest, &values->metallic, sizeof values->metallic);
-    return mix(digest, &values->largest_colour, sizeof values->largest_colour);
-}
-
-/// A number of what tiles of a material's lobes are made from.
-static uint32_t content_of(const filter_context *context, const device_material *material) {
-    uint32_t digest = mix(2166136261u, &material->version, sizeof material->version);
-    digest = mix(digest, material->texel_versions, sizeof material->texel_versions);
-    digest = mix_colours(digest, material);
-    digest = mix_reading(digest, context->scene, material);
-    digest = mix(digest, context->settings, sizeof *context->settings);
-    for (uint32_t map = 0; map < MAP_COUNT; map++)
-        if (material->maps[map].use)
-            digest = mix_given(digest, context, material->maps[map].image);
-    return end_digest(context->marks, digest);
-}
-
-static uint32_t content_of_image(const filter_context *context, int32_t image) {
-    const uint32_t version = context->scene->image_versions[image];
-    const uint32_t digest = mix(2166136261u, &version, sizeof version);
-    return end_digest(context->marks, mix_given(digest, context, image));
-}
-
-// ---------------------------------------------------------------------------------------------
 // The list
 
 /// A retained buffer, or one of this frame.
@@ -118,7 +49,7 @@ static lobe_resource declare_numbers(lobe_graph *graph, const char *name, uint32
 /// What tiles of a map are made of.
 typedef struct tile_source {
     uint32_t width, height; ///< texels
-    uint32_t first_mark, content;
+    uint32_t first_mark;
     bool reduced;
     lobe_resource condition, made_with; ///< version 0: none
 } tile_source;
@@ -142,8 +73,7 @@ static void list_tiles(const filter_context *context, const tile_source *source,
         .height = map->height,
         .levels = map->levels,
         .layers = map->layers,
-        .content = source->content,
-        .forgets = !map->keeps,
+        .forgets = !map->keeps || context->marks->rebuild,
         .reduced = source->reduced,
         .conditional = source->condition.version > 0,
         .made_with = made_with ? (uint32_t)(lobe_graph_buffer_size(graph, source->made_with) /
@@ -163,10 +93,13 @@ static void list_tiles(const filter_context *context, const tile_source *source,
     (void)(map->keeps ? lobe_pass_modify(pass, &known) : lobe_pass_write(pass, &known));
     map->tiles =
         lobe_pass_write(pass, &(lobe_binding){.name = "tile_list_block", .resource = list});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "maps/tile_list.comp",
-                                              .threads = {1, 1, 1},
-                                              .constants = &constants,
-                                              .constants_size = sizeof constants});
+    lobe_pass_dispatch(
+        pass, &(lobe_dispatch){.shader = "maps/tile_list.comp",
+                               .threads = {1, 1, 1},
+                               .constants = &constants,
+                               .constants_size = sizeof constants,
+                               .numbered = map->resource,
+                               .number_offset = offsetof(struct tile_list_constants, content)});
 }
 
 static reduced_map declare_map(const filter_context *context, const char *name, lobe_format format,
@@ -182,10 +115,8 @@ static tile_source source_of(const filter_context *context, uint32_t index, bool
     const device_material *material = &context->scene->materials[index];
     const lobe_grid grid = passes_lobe_grid(material);
     tile_source source = {.width = grid.width, .height = grid.height, .reduced = reduced};
-    if (context->marks) {
+    if (context->marks)
         source.first_mark = context->marks->first_marks[index];
-        source.content = content_of(context, material);
-    }
     return source;
 }
 
@@ -225,7 +156,6 @@ reduced_map passes_seen_image_declare(const filter_context *context,
         .width = own->width,
         .height = own->height,
         .first_mark = first,
-        .content = content_of_image(context, own->image),
         .reduced = true,
     };
     list_tiles(context, &source, name, &map);

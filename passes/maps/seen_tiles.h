@@ -8,7 +8,7 @@
 /// Maps of which only the tiles that a frame's pixels read are made
 /// (shaders/interface/map_tiles.h). A pass marks these tiles before the maps are built
 /// (passes/renderer/tile_marking.h). A tile that was made in an earlier frame, from the same
-/// content, is not made again.
+/// content, is not made again: the graph numbers what it is made from (lobe_dispatch.numbered).
 
 /// Of which tiles a frame's pixels read texels.
 typedef struct tile_marks {
@@ -16,8 +16,6 @@ typedef struct tile_marks {
     /// Of the map of lobes of each material of the scene, and of each image, filtered; the latter
     /// may be NO_TILE_MARKS.
     const uint32_t *first_marks, *first_image_marks;
-    /// Of this frame: what passes of the host write may differ from frame to frame.
-    uint32_t frame;
     bool rebuild; ///< tiles of earlier frames count as out of date
 } tile_marks;
 

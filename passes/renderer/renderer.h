@@ -20,8 +20,7 @@ struct lobe_renderer {
     device_scene *scene;              ///< NULL: none is set
     filtered_appearance *appearances; ///< one per instance of the scene
     draw_list draws;
-    uint32_t *first_marks;  ///< one per material, then one per image: see passes/maps/seen_tiles.h
-    uint32_t marked_frames; ///< in which tiles were marked
+    uint32_t *first_marks; ///< one per material, then one per image: see passes/maps/seen_tiles.h
     lobe_resource *filtered_images;     ///< passes_filtered_images_count of them
     filter_slots *slots;                ///< what filters prepared for the scene's materials
     const lobe_filter *reported_filter; ///< whose limits were already reported for this scene

@@ -182,7 +182,6 @@ void passes_tile_marking(rendering *r) {
                                  .first_marks = r->renderer->first_marks,
                                  .first_image_marks = r->renderer->first_marks +
                                                       r->context.scene->scene->material_count,
-                                 .frame = ++r->renderer->marked_frames,
                                  .rebuild = r->parameters->rebuild};
     r->context.marks = &r->tile_marks;
 }

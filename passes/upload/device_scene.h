@@ -138,7 +138,6 @@ typedef struct device_scene {
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used
     image_metal *metals;             ///< one for each image
     image_alpha *alphas;             ///< one for each image
-    uint32_t *image_versions;        ///< one for each image; increase with each change of texels
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;
     lobe_resource *given_waves; ///< one for each material: the maps of its waves

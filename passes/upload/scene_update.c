@@ -238,8 +238,6 @@ static lobe_result replace_environment(const scene_update *update) {
 /// Other texels are other lobes.
 static void mark_new_texels(const scene_update *update) {
     const lobe_scene_changes *changes = update->changes;
-    for (size_t i = 0; i < changes->image_count; i++)
-        update->scene->image_versions[changes->images[i]]++;
     for (size_t m = 0; m < update->scene->scene->material_count; m++) {
         device_material *material = &update->scene->materials[m];
         for (size_t i = 0; i < changes->image_count; i++) {

@@ -30,8 +30,6 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->metals);
     result->alphas =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->alphas);
-    result->image_versions =
-        lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->image_versions);
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
     result->given_waves =
         lobe_allocate(result->allocator, scene->material_count + 1, sizeof *result->given_waves);
@@ -51,10 +49,10 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
-    return result->images && result->metals && result->alphas && result->image_versions &&
-           result->given && result->given_waves && result->given_vertices &&
-           result->previous_vertices && result->deformed && result->deformations &&
-           result->materials && result->vertices && result->indices && result->measures &&
+    return result->images && result->metals && result->alphas && result->given &&
+           result->given_waves && result->given_vertices && result->previous_vertices &&
+           result->deformed && result->deformations && result->materials && result->vertices &&
+           result->indices && result->measures &&
            passes_device_scene_reserve_instances(result, scene->instance_count);
 }
 
@@ -133,7 +131,6 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_release(s->images);
     lobe_release(s->metals);
     lobe_release(s->alphas);
-    lobe_release(s->image_versions);
     lobe_release(s->given);
     lobe_release(s->given_waves);
     lobe_release(s->given_vertices);

@@ -28,8 +28,8 @@ struct tile_list_constants {
     uint height;
     uint levels;
     uint layers;
-    uint content;     // number of the maps' content, above 0
-    uint forgets;     // 1: no tile has been built yet
+    uint content;     // number of the maps' content (lobe_dispatch.numbered), above 0
+    uint forgets;     // 1: no tile has been built yet, or all are to be built again
     uint reduced;     // 1: tiles are built from those of the finer level; 0: from the base maps
     uint conditional; // 1: no tile is needed where the condition's first number is 0
     uint made_with;   // numbers of a buffer that tiles are made with; those count as content, too
