@@ -269,14 +269,6 @@ bool lobe_graph_has_content(const lobe_graph *graph, lobe_resource resource) {
     return kept != NULL;
 }
 
-uint64_t lobe_graph_content(const lobe_graph *graph, lobe_resource resource) {
-    const engine_graph_resource *found = find_resource(graph, resource);
-    const bool is_written = !found || resource.version > 1 ||
-                            found->origin == ENGINE_GRAPH_TRANSIENT ||
-                            found->origin == ENGINE_GRAPH_RETAINED;
-    return is_written ? 0 : graph->frame.dependencies.resources[resource.index].identity;
-}
-
 // ---------------------------------------------------------------------------------------------
 // What comes from the host
 

@@ -138,11 +138,6 @@ LOBE_API lobe_resource lobe_graph_buffer(lobe_graph *graph,
 /// it: all of it has content of earlier frames.
 LOBE_API bool lobe_graph_has_content(const lobe_graph *graph, lobe_resource resource);
 
-/// A number, above 0, of what something imported or uploaded holds when the frame starts: another
-/// one wherever that may be different, so in every frame for what the host does not number. 0: of
-/// what passes of this frame write, which is not known while they are declared.
-LOBE_API uint64_t lobe_graph_content(const lobe_graph *graph, lobe_resource resource);
-
 /// Whether something that the last frame declared still settles (lobe_buffer_description.settles):
 /// another frame like it would run passes, and may look different.
 LOBE_API bool lobe_graph_settles(const lobe_graph *graph);

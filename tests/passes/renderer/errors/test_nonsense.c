@@ -204,7 +204,6 @@ static void graphs_that_are_none(void **state) {
     assert_int_equal(lobe_graph_import_host_buffer(NULL, NULL).version, 0);
     assert_int_equal(lobe_graph_buffer_size(NULL, none), 0);
     assert_false(lobe_graph_has_content(NULL, none));
-    assert_int_equal(lobe_graph_content(NULL, none), 0);
     assert_int_equal(lobe_graph_upload(NULL, NULL, NULL, 5).version, 0);
     assert_int_equal(lobe_graph_describe_image(NULL, none).width, 0);
     assert_null(lobe_graph_add_pass(NULL, LOBE_PASS_COMPUTE, NULL));
