@@ -5,14 +5,6 @@
 /// Demand propagates backwards: from the outputs to the passes that write them, and from each of
 /// those to what it reads. It stops at retained content that is still valid.
 
-static bool writes(const engine_dependency_access *access) {
-    return access->kind != ENGINE_ACCESS_READ;
-}
-
-static bool reads(const engine_dependency_access *access) {
-    return access->kind != ENGINE_ACCESS_WRITE;
-}
-
 static uint32_t source_before(const engine_dependency_graph *graph, uint32_t writer,
                               uint32_t subresource) {
     const engine_dependency_access *access = &graph->accesses[writer];
@@ -77,7 +69,7 @@ static bool demand_kept(engine_dependency_graph *graph, engine_dependency_pass *
                         bool use_retained) {
     bool changed = false, written = false;
     for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
-        if (writes(&graph->accesses[i])) {
+        if (engine_access_writes(&graph->accesses[i])) {
             written = true;
             changed |= demand_written(graph, i, use_retained);
         }
@@ -94,7 +86,7 @@ static bool demand_of_pass(engine_dependency_graph *graph, engine_dependency_pas
     if (pass->state != LOBE_PASS_RUN)
         return changed;
     for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
-        if (reads(&graph->accesses[i]))
+        if (engine_access_reads(&graph->accesses[i]))
             changed |= demand_read(graph, &graph->accesses[i], use_retained);
     return changed;
 }
@@ -122,7 +114,8 @@ static void propagate_demand(engine_dependency_graph *graph, bool use_retained) 
 static bool writes_retained(const engine_dependency_graph *graph,
                             const engine_dependency_pass *pass) {
     for (uint32_t i = pass->first_access; i != ENGINE_DEPENDENCY_NONE; i = graph->accesses[i].next)
-        if (writes(&graph->accesses[i]) && graph->resources[graph->accesses[i].resource].retained)
+        if (engine_access_writes(&graph->accesses[i]) &&
+            graph->resources[graph->accesses[i].resource].retained)
             return true;
     return false;
 }

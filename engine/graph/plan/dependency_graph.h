@@ -227,6 +227,14 @@ static inline uint32_t engine_subresource_index(const engine_dependency_resource
     return level * resource->layers + layer;
 }
 
+static inline bool engine_access_reads(const engine_dependency_access *access) {
+    return access->kind != ENGINE_ACCESS_WRITE;
+}
+
+static inline bool engine_access_writes(const engine_dependency_access *access) {
+    return access->kind != ENGINE_ACCESS_READ;
+}
+
 static inline uint32_t engine_access_size(const engine_dependency_access *access) {
     return access->range.level_count * access->range.layer_count;
 }

@@ -3,14 +3,6 @@
 /// Digests of what passes do and of what they do it with: which content is still valid (cull.c),
 /// and numbers of content for passes that decide for themselves what is.
 
-static bool writes(const engine_dependency_access *access) {
-    return access->kind != ENGINE_ACCESS_READ;
-}
-
-static bool reads(const engine_dependency_access *access) {
-    return access->kind != ENGINE_ACCESS_WRITE;
-}
-
 /// Of one that modifies what evolves, the graph's own number: what it leaves depends on frames of
 /// this graph.
 static engine_stamp stamp_read(const engine_dependency_graph *graph,
@@ -52,7 +44,7 @@ void engine_dependency_stamp(engine_dependency_graph *graph) {
             stamp = engine_stamp_mix(stamp, access->kind);
             stamp = engine_stamp_bytes(stamp, &access->range, sizeof access->range);
             stamp = engine_stamp_mix(stamp, graph->resources[access->resource].identity);
-            if (reads(access))
+            if (engine_access_reads(access))
                 stamp = stamp_read(graph, access, stamp);
         }
         for (uint32_t a = pass->first_access; a != ENGINE_DEPENDENCY_NONE;
@@ -86,10 +78,10 @@ static engine_stamp stamp_making(const engine_dependency_graph *graph,
         stamp = engine_stamp_bytes(stamp, &access->range, sizeof access->range);
         stamp = engine_stamp_mix(stamp, graph->resources[access->resource].identity);
         if (access->resource == made) {
-            stamp = engine_stamp_mix(stamp, writes(access));
+            stamp = engine_stamp_mix(stamp, engine_access_writes(access));
         } else {
             stamp = engine_stamp_mix(stamp, access->kind);
-            if (reads(access))
+            if (engine_access_reads(access))
                 stamp = stamp_read(graph, access, stamp);
         }
     }
@@ -105,7 +97,8 @@ void engine_dependency_number(engine_dependency_graph *graph) {
              a = graph->accesses[a].next) {
             const uint32_t made = graph->accesses[a].resource;
             engine_dependency_resource *resource = &graph->resources[made];
-            if (writes(&graph->accesses[a]) && resource->numbered_by != ENGINE_DEPENDENCY_NONE)
+            if (engine_access_writes(&graph->accesses[a]) &&
+                resource->numbered_by != ENGINE_DEPENDENCY_NONE)
                 resource->number =
                     engine_stamp_mix(resource->number, stamp_making(graph, pass, made));
         }
