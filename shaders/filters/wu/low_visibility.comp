@@ -16,14 +16,13 @@ layout(set = 0, binding = 5, std430) writeonly buffer sight_block { uint sights[
 
 void main() {
     uint words = filled_direction_count() / 4u;
-    uint index = gl_GlobalInvocationID.x / words, first_of_word = gl_GlobalInvocationID.x % words;
+    uint index = gl_GlobalInvocationID.x / words, place = gl_GlobalInvocationID.x % words;
     if (index >= path_count())
         return;
     uint cell = cell_at(wu.levels[stage.level], path_start(index)), word = 0u;
     vec4 light = first[gl_GlobalInvocationID.x];
     for (uint i = 0u; i < 4u; ++i) {
-        uint which = min(4u * first_of_word + i, direction_count() - 1u);
-        vec2 areas = seen_areas(cell, direction_of_index(which, wu.angular));
+        vec2 areas = seen_areas(cell, direction_at(4u * place + i));
         uint seen = (areas.x > 0.0 ? WU_SEES_LOWER : 0u) + (areas.y > 0.0 ? WU_SEES_UPPER : 0u) +
                     (light[i] > 0.0 ? WU_SEES_FACET : 0u);
         word |= seen << (WU_SIGHT_BITS * i);

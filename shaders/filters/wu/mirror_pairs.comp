@@ -16,10 +16,6 @@ layout(set = 0, binding = 6, std430) readonly buffer sight_block { uint sights[]
 // Seen by facets, and by the coarse relief.
 layout(set = 0, binding = 7, std430) writeonly buffer mirror_pair_block { vec2 pairs[]; };
 
-vec3 direction_at(uint index) {
-    return direction_of_index(min(index, direction_count() - 1u), wu.angular);
-}
-
 // What one facet adds to a pair. `both`: who sees both directions.
 vec2 mirrored_area(vec3 normal, vec3 incoming, vec3 outgoing, uint both) {
     if (dot(normal, incoming) <= 0.0 || dot(normal, outgoing) <= 0.0)

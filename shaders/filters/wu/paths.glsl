@@ -3,6 +3,7 @@
 
 // Where paths of light start, and what is kept of them. Needs wu/cells.glsl.
 
+#include "filters/wu/directions.glsl"
 #include "lib/number/hash.glsl"
 
 // A vertex of a path.
@@ -18,6 +19,11 @@ uint direction_count() {
 
 uint filled_direction_count() {
     return (direction_count() + 7u) & ~7u;
+}
+
+// Of the table; beyond it, its last one.
+vec3 direction_at(uint index) {
+    return direction_of_index(min(index, direction_count() - 1u), wu.angular);
 }
 
 uint path_count() {
