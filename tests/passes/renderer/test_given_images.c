@@ -473,48 +473,66 @@ static uint64_t draw_until_at_rest(lobe_renderer *renderer, const char *filter,
     return hash;
 }
 
+/// A scene whose first map is an image of the host's Vulkan, in a renderer on the host's device.
+typedef struct host_map {
+    host_device host;
+    lobe_device *device;
+    lobe_renderer *renderer;
+    lobe_scene *scene;
+    host_image image;
+    lobe_vulkan_image lent;
+} host_map;
+
+static host_map host_map_open(uint64_t seed) {
+    host_map m;
+    m.renderer = host_renderer_open(&m.host, &m.device);
+    m.scene = mapped_scene(seed);
+    m.scene->images[0].on_device = true;
+    assert_int_equal(lobe_renderer_set_scene(m.renderer, m.scene), LOBE_OK);
+    m.image = host_image_create(&m.host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
+                                VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    m.lent = (lobe_vulkan_image){.image = m.image.image,
+                                 .format = m.image.format,
+                                 .width = MAP,
+                                 .height = MAP,
+                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                 .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    return m;
+}
+
+static void host_map_close(host_map *m) {
+    lobe_renderer_destroy(&m->renderer);
+    lobe_device_destroy(&m->device);
+    host_image_destroy(&m->host, &m->image);
+    host_device_close(&m->host);
+    lobe_scene_destroy(&m->scene);
+}
+
 /// While the host says that its image has not changed, only shading runs. Bins of `moments` follow
 /// earlier ones: what they come to rest at depends on these.
 static void images_whose_content_stays_are_filtered_once(void **state) {
     static const char *const filters[] = {"lean", "moments"};
     static const float slopes[] = {0.2f, -0.2f, 0.2f};
     (void)state;
-    host_device host;
-    lobe_device *device;
-    lobe_renderer *renderer = host_renderer_open(&host, &device);
-    lobe_scene *scene = mapped_scene(375);
-    scene->images[0].on_device = true;
-    assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
-    host_image map =
-        host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
-                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    lobe_vulkan_image lent = {.image = map.image,
-                              .format = map.format,
-                              .width = MAP,
-                              .height = MAP,
-                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                              .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    host_map m = host_map_open(375);
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
         uint64_t pictures[3];
         for (int n = 0; n < 3; n++) {
             unsigned frames;
-            clear_map(&host, &map, slopes[n]);
-            lent.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-            lent.content++;
-            pictures[n] = draw_until_at_rest(renderer, filters[i], &lent, &frames);
+            clear_map(&m.host, &m.image, slopes[n]);
+            m.lent.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+            m.lent.content++;
+            pictures[n] = draw_until_at_rest(m.renderer, filters[i], &m.lent, &frames);
             assert_in_range(frames, 2, 99);
-            assert_true(draw_until_at_rest(renderer, filters[i], &lent, &frames) == pictures[n]);
+            assert_true(draw_until_at_rest(m.renderer, filters[i], &m.lent, &frames) ==
+                        pictures[n]);
             assert_int_equal(frames, 1);
         }
         assert_true(pictures[0] != pictures[1]);
         if (i == 0)
             assert_true(pictures[0] == pictures[2]);
     }
-    lobe_renderer_destroy(&renderer);
-    lobe_device_destroy(&device);
-    host_image_destroy(&host, &map);
-    host_device_close(&host);
-    lobe_scene_destroy(&scene);
+    host_map_close(&m);
 }
 
 /// With only the tiles made that pixels read. The host writes its image without saying so, which
@@ -522,23 +540,9 @@ static void images_whose_content_stays_are_filtered_once(void **state) {
 static void tiles_of_content_that_stays_are_made_once(void **state) {
     static const char *const filters[] = {"mipmap", "lean", "lobes", "moments"};
     (void)state;
-    host_device host;
-    lobe_device *device;
-    lobe_renderer *renderer = host_renderer_open(&host, &device);
-    lobe_scene *scene = mapped_scene(376);
-    scene->images[0].on_device = true;
-    assert_int_equal(lobe_renderer_set_scene(renderer, scene), LOBE_OK);
-    host_image map =
-        host_image_create(&host, VK_FORMAT_R32G32B32A32_SFLOAT, MAP, MAP,
-                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    lobe_vulkan_image lent = {.image = map.image,
-                              .format = map.format,
-                              .width = MAP,
-                              .height = MAP,
-                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                              .final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                              .content = 1};
-    lobe_renderer_set_content_giver(renderer, give_vulkan, &lent);
+    host_map m = host_map_open(376);
+    m.lent.content = 1;
+    lobe_renderer_set_content_giver(m.renderer, give_vulkan, &m.lent);
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
         static const float slopes[] = {0.2f, -0.2f, -0.2f, -0.2f, 0.2f, -0.2f};
         static const bool said[] = {true, false, false, true, true, false};
@@ -550,18 +554,18 @@ static void tiles_of_content_that_stays_are_made_once(void **state) {
         const lobe_settings settings[] = {
             settings_of(filter, (const char *[]){"built=seen", more, NULL}),
             settings_of(filter, (const char *[]){"built=seen", more, "curvature=0", NULL})};
-        const uint64_t first = lent.content;
+        const uint64_t first = m.lent.content;
         uint64_t pictures[6];
         for (size_t n = 0; n < 6; n++) {
             const lobe_render_parameters parameters = {.filter = filter,
                                                        .settings = &settings[flat[n]],
                                                        .width = EXTENT,
                                                        .height = EXTENT};
-            clear_map(&host, &map, slopes[n]);
-            lent.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-            lent.content = n == unnumbered ? 0 : lent.content + said[n];
+            clear_map(&m.host, &m.image, slopes[n]);
+            m.lent.layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+            m.lent.content = n == unnumbered ? 0 : m.lent.content + said[n];
             lobe_frame frame;
-            assert_int_equal(lobe_renderer_render(renderer, &parameters, &frame), LOBE_OK);
+            assert_int_equal(lobe_renderer_render(m.renderer, &parameters, &frame), LOBE_OK);
             pictures[n] = image_hash(&frame.radiance);
             lobe_frame_free(&frame);
         }
@@ -569,13 +573,9 @@ static void tiles_of_content_that_stays_are_made_once(void **state) {
             fail_msg("%s: tiles were made again", filters[i]);
         assert_true(pictures[3] != pictures[0]);
         assert_true(pictures[5] == pictures[3]);
-        lent.content = first + 10;
+        m.lent.content = first + 10;
     }
-    lobe_renderer_destroy(&renderer);
-    lobe_device_destroy(&device);
-    host_image_destroy(&host, &map);
-    host_device_close(&host);
-    lobe_scene_destroy(&scene);
+    host_map_close(&m);
 }
 
 /// The host writes one image while lobe reads the other. Each has numbers of its own, which may be
