@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "passes/environment/reduction.h"
 #include "shaders/interface/environment/environment.h"
 
 /// The centre of each face of the cube, and the directions of its x and y, as Vulkan defines them.
@@ -35,6 +36,24 @@ static uint32_t face_texels(const lobe_environment *environment,
                : (uint32_t)lround(2 * hypot(place->right_down[0], place->right_down[1]));
 }
 
+/// Lavapipe silently ends the loops of a shader after 65535 iterations in total. At the poles of an
+/// image of latitude and longitude rows are short, so that each of a texel's points is a mean of
+/// many columns.
+#define MOST_ITERATIONS 60000
+/// Texels along the square around a pole in which one invocation does not suffice, at most.
+#define POLAR_WIDTH 16
+/// Points along each axis of a texel, at most, but for the poles.
+#define MOST_SUBSAMPLES 32
+#define LARGEST_SIZE    2048
+
+/// Of a texel at a pole (cube.glsl), at most. It has six times as many points along each axis, in a
+/// lattice of up to 1.62 times as many. Each reads columns around it, more of them the smaller its
+/// sine is: the mean of 1 / sine over the texel is 1.76 / extent.
+static double polar_iterations(uint32_t subsamples, uint32_t columns) {
+    const double side = 6 * fmax(subsamples, ENVIRONMENT_SUBSAMPLES), points = 1.62 * side * side;
+    return points + 4 * 1.76 / (2 * M_PI) * columns * sqrt(points);
+}
+
 static struct environment_cube_constants constants_of(const lobe_environment *environment,
                                                       const struct environment_face_place *place,
                                                       uint32_t size) {
@@ -46,6 +65,8 @@ static struct environment_cube_constants constants_of(const lobe_environment *en
         // A texel in the middle of a face covers 2/size radians, a row of the image pi/height.
         constants.subsamples =
             (uint32_t)ceil(ENVIRONMENT_SUBSAMPLES * 2.0 / size * environment->image.height / M_PI);
+        if (polar_iterations(constants.subsamples, environment->image.width) > MOST_ITERATIONS)
+            constants.polar_width = size < POLAR_WIDTH ? size : POLAR_WIDTH;
     } else if (texels % size == 0) {
         // Every texel of the cube covers whole texels of the image: their mean is exact.
         constants.nearest = 1;
@@ -56,26 +77,84 @@ static struct environment_cube_constants constants_of(const lobe_environment *en
     return constants;
 }
 
+/// What both passes read.
+typedef struct cube_source {
+    lobe_graph *graph;
+    lobe_resource image, places;
+    struct environment_cube_constants constants;
+} cube_source;
+
+static lobe_pass *add_pass(const cube_source *source, const char *name) {
+    lobe_pass *pass = lobe_graph_add_pass(source->graph, LOBE_PASS_COMPUTE, name);
+    lobe_pass_read(pass, &(lobe_binding){.name = "image",
+                                         .resource = source->image,
+                                         .sampler = {.texels = LOBE_SAMPLE_LINEAR,
+                                                     .wrap_u = LOBE_WRAP_REPEAT,
+                                                     .wrap_v = LOBE_WRAP_CLAMP}});
+    lobe_pass_read(pass, &(lobe_binding){.name = "places_block", .resource = source->places});
+    return pass;
+}
+
+static lobe_resource fill_cube(const cube_source *source, lobe_resource cube) {
+    const uint32_t size = source->constants.size, polar = source->constants.polar_width;
+    lobe_binding target = {"cube", cube, .range = {0, 1, 0, 6}};
+    lobe_dispatch dispatch = {.shader = "environment/cube.comp",
+                              .threads = {size, size, 6},
+                              .constants = &source->constants,
+                              .constants_size = sizeof source->constants};
+    lobe_pass *pass = add_pass(source, "environment_cube");
+    target.resource = lobe_pass_write(pass, &target);
+    lobe_pass_dispatch(pass, &dispatch);
+    if (polar == 0)
+        return target.resource;
+    pass = add_pass(source, "environment_poles");
+    target.resource = lobe_pass_modify(pass, &target);
+    dispatch.shader = "environment/poles.comp";
+    dispatch.threads[0] = 2 * polar * polar * ENVIRONMENT_POLAR_GROUP_SIZE;
+    dispatch.threads[1] = dispatch.threads[2] = 1;
+    lobe_pass_dispatch(pass, &dispatch);
+    return target.resource;
+}
+
+/// Of an image of many texels for each of the cube's: by way of a finer cube.
+static lobe_resource reduce_finer_cube(const cube_source *source, lobe_resource cube,
+                                       uint32_t size) {
+    const uint32_t finer = source->constants.size;
+    reduced_map map = {
+        .width = finer, .height = finer, .layers = 6, .levels = passes_level_count(finer, finer)};
+    map.resource = lobe_graph_image(source->graph,
+                                    &(lobe_image_description){.name = "finer environment",
+                                                              .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                              .width = finer,
+                                                              .height = finer,
+                                                              .layers = 6,
+                                                              .levels = map.levels});
+    map.resource = fill_cube(source, map.resource);
+    passes_environment_reduction(source->graph, &map);
+    uint32_t level = 0;
+    while (finer >> level > size)
+        level++;
+    lobe_pass *pass = lobe_graph_add_pass(source->graph, LOBE_PASS_TRANSFER, "environment_level");
+    return lobe_pass_copy(pass, map.resource, (lobe_range){level, 1, 0, 6}, cube,
+                          (lobe_range){0, 1, 0, 6});
+}
+
 lobe_resource passes_environment_cube(lobe_graph *graph, const lobe_environment *environment,
                                       const lobe_texture *texture, lobe_resource cube,
                                       uint32_t size) {
     struct environment_face_place places[6];
     for (int face = 0; face < 6; face++)
         places[face] = place_of_face(environment, face);
-    struct environment_cube_constants constants = constants_of(environment, places, size);
-    lobe_resource uploaded =
-        lobe_graph_upload(graph, "places of faces on an environment", places, sizeof places);
-    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "environment_cube");
-    lobe_pass_read(pass, &(lobe_binding){.name = "image",
-                                         .resource = lobe_graph_import_texture(graph, texture),
-                                         .sampler = {.texels = LOBE_SAMPLE_LINEAR,
-                                                     .wrap_u = LOBE_WRAP_REPEAT,
-                                                     .wrap_v = LOBE_WRAP_CLAMP}});
-    lobe_pass_read(pass, &(lobe_binding){.name = "places_block", .resource = uploaded});
-    cube = lobe_pass_write(pass, &(lobe_binding){"cube", cube, .range = {0, 1, 0, 6}});
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "environment/cube.comp",
-                                              .threads = {size, size, 6},
-                                              .constants = &constants,
-                                              .constants_size = sizeof constants});
-    return cube;
+    cube_source source = {
+        .graph = graph,
+        .image = lobe_graph_import_texture(graph, texture),
+        .places =
+            lobe_graph_upload(graph, "places of faces on an environment", places, sizeof places),
+        .constants = constants_of(environment, places, size),
+    };
+    for (uint32_t finer = 2 * size;
+         source.constants.subsamples > MOST_SUBSAMPLES && finer <= LARGEST_SIZE; finer *= 2)
+        source.constants = constants_of(environment, places, finer);
+    return source.constants.size == size ? fill_cube(&source, cube)
+                                         : reduce_finer_cube(&source, cube, size);
 }

@@ -9,7 +9,7 @@
 
 /// Increment it whenever the same environment is filtered differently: old files are then no longer
 /// found.
-#define CACHE_VERSION 2
+#define CACHE_VERSION 3
 
 static const char key_attribute[] = "environmentHash";
 static const char checksum_attribute[] = "texelChecksum";

@@ -16,15 +16,20 @@ INTERFACE_SIZE(environment_face_place, 32)
 // Of a texel of an environment's image, along each axis, at least.
 #define ENVIRONMENT_SUBSAMPLES 4
 
-// environment_cube. Six places of faces follow in a buffer; latitude and longitude need none.
+// Invocations that sum the points of a texel at a pole.
+#define ENVIRONMENT_POLAR_GROUP_SIZE 256
+
+// environment_cube and environment_poles. Six places of faces follow in a buffer; latitude and
+// longitude need none.
 struct environment_cube_constants {
     uint size;               // texels along a face of the cube
     uint latitude_longitude; // 0: the image is made of faces
     uint face_texels;        // texels along a face of the image, or rows from pole to pole
     uint subsamples;         // along each axis of a texel of the cube, at the middle of a face
     uint nearest;            // 1: texels of the image are not interpolated
+    uint polar_width;        // texels along either square that environment_poles makes; 0: none
 };
-INTERFACE_SIZE(environment_cube_constants, 20)
+INTERFACE_SIZE(environment_cube_constants, 24)
 
 // environment_prefiltering.
 struct environment_prefiltering_constants {

@@ -22,7 +22,10 @@ static const shape shapes[] = {
     {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 64, 32},
     {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 7, 5},
     {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 1, 1},
+    {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 256, 128}, // poles by environment_poles
+    {LOBE_ENVIRONMENT_LATITUDE_LONGITUDE, 512, 256}, // by way of a finer cube
     {LOBE_ENVIRONMENT_CUBE_COLUMN, 16, 96},
+    {LOBE_ENVIRONMENT_CUBE_ROW, 900, 150}, // by way of a finer cube
     {LOBE_ENVIRONMENT_CUBE_ROW, 42, 7},
     {LOBE_ENVIRONMENT_VERTICAL_CROSS, 96, 128},
     {LOBE_ENVIRONMENT_HORIZONTAL_CROSS, 84, 63},
@@ -153,6 +156,14 @@ static void a_sun_of_a_small_image_keeps_its_energy(void **state) {
     check_suns(*state, 2, 64, (const uint32_t[][2]){{0, 0}, {3, 1}}, 2, 2e-3);
 }
 
+/// Of many columns and rows for each texel of the cube: at the poles by environment_poles, and by
+/// way of a finer cube.
+static void a_sun_of_a_fine_image_keeps_its_energy(void **state) {
+    static const uint32_t places[][2] = {{135, 0}, {643, 0}, {643, 1}, {135, 3}, {643, 508}};
+    check_suns(*state, 512, 64, places, sizeof places / sizeof *places, 5e-3);
+    check_suns(*state, 512, 16, places, 3, 5e-3);
+}
+
 /// Texel for texel, after a quarter turn about +Y: +X comes from +Z, -Z from +X and so on.
 static void a_turned_image_gives_a_turned_cube(void **state) {
     const uint32_t width = 128, height = 64;
@@ -190,6 +201,7 @@ int main(void) {
         cmocka_unit_test(directions_are_those_of_the_image),
         cmocka_unit_test(a_small_sun_keeps_its_energy),
         cmocka_unit_test(a_sun_of_a_small_image_keeps_its_energy),
+        cmocka_unit_test(a_sun_of_a_fine_image_keeps_its_energy),
         cmocka_unit_test(a_turned_image_gives_a_turned_cube),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);

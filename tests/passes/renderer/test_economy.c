@@ -384,6 +384,7 @@ static void rebuilding_materials_keeps_the_environment(void **state) {
     lobe_frame frame = draw(f, &request);
     const size_t all = count_passes(lobe_renderer_graph(f->renderer), NULL, LOBE_PASS_RUN);
     const char *const prepare[] = {"directional_albedo",       "environment_cube",
+                                   "environment_poles",        "environment_level",
                                    "environment_reduction",    "environment_prefiltering",
                                    "environment_mixture",      "irradiance_harmonics",
                                    "irradiance_harmonics_sum", "irradiance_remainder"};
