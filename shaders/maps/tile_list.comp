@@ -21,11 +21,14 @@ layout(set = 0, binding = 4, std430) readonly buffer made_with_block { uint made
 shared uint appended;
 shared uint content; // of a tile that is made now
 
-// Above 0: FNV-1a (Fowler, Noll, Vo).
+// Above 0: FNV-1a (Fowler, Noll, Vo), whose products carry upwards alone. It takes bytes; of whole
+// numbers the upper bits must come down, or two that change their signs leave the digest as it was.
 uint digest_of_content() {
     uint number = map.content;
-    for (uint i = 0u; i < map.made_with; ++i)
+    for (uint i = 0u; i < map.made_with; ++i) {
         number = (number ^ made_with[i]) * 16777619u;
+        number ^= number >> 15;
+    }
     return max(number, 1u);
 }
 

@@ -24,7 +24,7 @@ typedef struct tile_case {
     bool reduced;
     bool conditional;
     uint32_t condition; ///< 0: no tile is needed
-    uint32_t made_with;
+    uint32_t made_with[2];
     struct tile_level levels[MAP_TILE_LEVELS];
     uint32_t level_count, tiles;
     uint32_t *marks, *needed;
@@ -84,7 +84,7 @@ static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content,
                                                   .forgets = forgets,
                                                   .reduced = c->reduced,
                                                   .conditional = c->conditional,
-                                                  .made_with = 1};
+                                                  .made_with = 2};
     lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "tile_list");
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "mark_block",
@@ -96,7 +96,7 @@ static const uint32_t *list_of(fixture *f, const tile_case *c, uint32_t content,
                                                                  sizeof c->condition)});
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "made_with_block",
-                                   .resource = lobe_graph_upload(graph, "made with", &c->made_with,
+                                   .resource = lobe_graph_upload(graph, "made with", c->made_with,
                                                                  sizeof c->made_with)});
     const lobe_resource known = lobe_graph_buffer(graph, &states);
     assert_int_equal(lobe_graph_has_content(graph, known), !forgets);
@@ -154,6 +154,10 @@ static void tiles_that_marks_need_are_listed_once(void **state) {
             check_list(&c, list_of(f, &c, 6, false), none);
             c.condition = 1;
             check_list(&c, list_of(f, &c, 6, false), c.needed);
+            // Two numbers have another sign.
+            c.made_with[0] = c.made_with[1] = 1u << 31;
+            check_list(&c, list_of(f, &c, 6, false), c.needed);
+            check_list(&c, list_of(f, &c, 6, false), none);
             free(none);
             free(c.marks);
             free(c.needed);
