@@ -29,7 +29,7 @@ double sample_relief_slope(const lobe_image *map) {
     return sqrt(sum / (map->width * map->height));
 }
 
-static void scale_to_slope(const lobe_image *map, double slope) {
+void sample_relief_scale(const lobe_image *map, double slope) {
     const double scale = slope / sample_relief_slope(map);
     for (uint32_t i = 0; i < map->width * map->height; i++) {
         float *texel = (float *)map->texels + 4 * (size_t)i;
@@ -93,7 +93,7 @@ lobe_image sample_relief_noise(uint32_t extent, double wavelength, uint64_t seed
             ((float *)map.texels)[4 * (size_t)i] += (float)sin(
                 2 * M_PI * (count[0] * (i % extent) + count[1] * (i / extent)) / extent + phase);
     }
-    scale_to_slope(&map, 1);
+    sample_relief_scale(&map, 1);
     return map;
 }
 
@@ -121,7 +121,7 @@ lobe_image sample_relief_load(const char *path, const lobe_host *host) {
         *height(&map, i % SAMPLE_EXTENT, i / SAMPLE_EXTENT) = (float)(sum / (part * part));
     }
     lobe_image_free(&file);
-    scale_to_slope(&map, 1);
+    sample_relief_scale(&map, 1);
     return map;
 }
 

@@ -22,6 +22,9 @@ lobe_image sample_relief_load(const char *path, const lobe_host *host);
 /// Moves and scales heights to [0, 1]. Returns by how much they differed.
 double sample_relief_normalise(lobe_image *map);
 
+/// Scales heights to slopes of this rms.
+void sample_relief_scale(const lobe_image *map, double slope);
+
 /// The rms of a relief's slopes.
 double sample_relief_slope(const lobe_image *map);
 
