@@ -717,8 +717,8 @@ float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen, 
 }
 
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
-// smooth facets where they mirror light from, and rough ones half as diffuse ones are. The other
-// half of what these reflect comes from about where the viewer is, who sees them.
+// smooth facets where they mirror light from, and rough ones as diffuse ones are. Of an environment
+// the latter half as much: its lobes end at horizons as well.
 struct mirroring_bins {
     facet_group groups[FACET_BINS];
     float depths[FACET_BINS]; // see find_depths()
@@ -815,13 +815,17 @@ mirroring_bins find_bins(surface_point surface) {
     return bins;
 }
 
-void find_areas(inout mirroring_bins bins, float width) {
+float lit_if_rough(bool of_environment) {
+    return of_environment ? 0.5 + 0.5 * closure.direct : closure.direct;
+}
+
+void find_areas(inout mirroring_bins bins, float width, bool of_environment) {
     float roughness = roughness_from_parameter(DISTRIBUTION, width);
     bins.shown = 0.0;
     for (uint k = 0u; k < FACET_BINS; ++k) {
         bins.areas[k] = 0.0;
         if (bins.seen[k] > 0.0)
-            bins.areas[k] = bins.seen[k] * mix(bins.lit[k], 0.5 + 0.5 * closure.direct,
+            bins.areas[k] = bins.seen[k] * mix(bins.lit[k], lit_if_rough(of_environment),
                                                roughness * roughness);
         bins.shown += bins.areas[k];
     }
@@ -869,14 +873,14 @@ void add_mirrored_on(base_material base, mirroring_bins bins, float share) {
         share * min(kept / max(diffuse, LEAST_INDIRECT), MOST_MIRRORED_ON);
 }
 
-void find_axis_of_sent_on(mirroring_bins bins) {
+void find_axis_of_sent_on(mirroring_bins bins, bool of_environment) {
     float roughness = 0.0;
     for (uint i = 0u; i < WIDTHS; ++i)
         roughness += drawn.shares[i] * roughness_from_parameter(DISTRIBUTION, drawn.widths[i]);
     vec3 slopes = moments_of_slopes(bins.groups);
     // Of what meets other facets, all but what is mirrored as if it were diffuse, see find_areas().
     float rough = roughness * roughness, share = (1.0 - rough) * bins.hidden;
-    share /= max(share + rough * (0.5 - 0.5 * closure.direct), 1e-6);
+    share /= max(share + rough * (1.0 - lit_if_rough(of_environment)), 1e-6);
     drawn.sent_on =
         find_sent_on(bins.sent_on, sqrt(0.5 * (slopes.x + slopes.y)), roughness, share);
 }
@@ -884,7 +888,7 @@ void find_axis_of_sent_on(mirroring_bins bins) {
 void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) {
     find_widths(fetched, surface);
     mirroring_bins bins = find_bins(surface);
-    find_axis_of_sent_on(bins);
+    find_axis_of_sent_on(bins, false);
     float hiding[4]; // Lambda of light and viewer
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
         hiding[i] = lambda_of_seen(drawn.seen) +
@@ -892,7 +896,7 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
     for (uint w = 0u; w < WIDTHS; ++w) {
         base_material base = fetched.base;
         base.width = drawn.widths[w];
-        find_areas(bins, base.width);
+        find_areas(bins, base.width, false);
         add_mirrored_on(base, bins, drawn.shares[w]);
         for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
             drawn.lights[4u * w + i] = no_light();
@@ -901,23 +905,20 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
                 continue;
             plane_bin bin = bin_of(bins.groups[k], base.width);
             for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
-                vec3 halfway = half_vector(incoming[i], surface.outgoing);
-                light_sum own = no_light();
-                add_bin_to_light(own, bin, halfway, plane_from_direction(halfway));
-                add_light(drawn.lights[4u * w + i], own, 1.0 / (1.0 + bins.depths[k] * hiding[i]));
+                add_seen_bin(drawn.lights[4u * w + i], bin,
+                             half_vector(incoming[i], surface.outgoing), surface.outgoing,
+                             incoming[i], 1.0 / (1.0 + bins.depths[k] * hiding[i]));
             }
         }
     }
 }
 
 // Over the area that the viewer sees.
-vec3 mirrored_by_facets(base_material base, vec3 fresnel, vec3 outgoing, vec3 incoming,
-                        uint light) {
+vec3 mirrored_by_facets(base_material base, vec3 fresnel, uint light) {
     vec3 sum = vec3(0.0);
     for (uint w = 0u; w < WIDTHS; ++w) {
         base.width = drawn.widths[w];
-        sum += drawn.shares[w] *
-               mirrored_light(base, drawn.lights[4u * w + light], fresnel, outgoing, incoming);
+        sum += drawn.shares[w] * mirrored_light(base, drawn.lights[4u * w + light], fresnel);
     }
     return sum / (drawn.viewer.z * drawn.visible);
 }
@@ -940,7 +941,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
         float cosine = dot(incoming, half_vector(incoming, surface.outgoing));
         vec3 fresnel = fresnel_schlick(base.specular, vec3(1.0), cosine);
         above_diffuse = fresnel_schlick(mirrored_above_diffuse(base.specular), vec3(1.0), cosine);
-        lobes = mirrored_by_facets(fetched.base, fresnel, surface.outgoing, incoming, light);
+        lobes = mirrored_by_facets(fetched.base, fresnel, light);
     } else {
         base_material mirroring = base;
         mirroring.diffuse = vec3(0.0);
@@ -998,12 +999,12 @@ vec3 reflect_bins_of_relief(base_material base, surface_point surface, mirroring
 vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
     find_widths(fetched, surface);
     mirroring_bins bins = find_bins(surface);
-    find_axis_of_sent_on(bins);
+    find_axis_of_sent_on(bins, true);
     vec3 sum = vec3(0.0);
     for (uint w = 0u; w < WIDTHS; ++w) {
         base_material base = fetched.base;
         base.width = drawn.widths[w];
-        find_areas(bins, base.width);
+        find_areas(bins, base.width, true);
         add_mirrored_on(base, bins, drawn.shares[w]);
         sum += drawn.shares[w] * reflect_bins_of_relief(base, surface, bins);
     }

@@ -223,22 +223,18 @@ plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
 // `scaling`: of mirrors, for each light.
 void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, float scaling[4],
                         surface_point surface, float width) {
-    light_sum sums[4];
-    for (int k = 0; k < 4; ++k)
-        sums[k] = no_light();
+    float factor = weight * mirror_scaling_of_cell(level, cell), parts[4];
+    for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k)
+        parts[k] =
+            factor * scaling[k] * seen_by_both(seen, seen_areas(cell, drawn.towards[k]));
     for (uint i = 0u; i < WU_LOBES; ++i) {
         plane_bin bin = bin_of_lobe(cells[cell].lobes[i], surface.curvature, width);
         for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
-            vec3 halfway = half_vector(tangent_from_relief(drawn.towards[k]), drawn.outgoing);
-            if (bin.mass > 0.0)
-                add_bin_to_light(sums[k], bin, halfway, plane_from_direction(halfway));
+            vec3 incoming = tangent_from_relief(drawn.towards[k]);
+            if (bin.mass > 0.0 && parts[k] > 0.0)
+                add_seen_bin(drawn.mirrored[k], bin, half_vector(incoming, drawn.outgoing),
+                             drawn.outgoing, incoming, parts[k]);
         }
-    }
-    float factor = weight * mirror_scaling_of_cell(level, cell);
-    for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
-        float both = seen_by_both(seen, seen_areas(cell, drawn.towards[k]));
-        if (both > 0.0)
-            add_light(drawn.mirrored[k], sums[k], factor * both * scaling[k]);
     }
 }
 
@@ -343,9 +339,7 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     if (has_facets()) {
         fresnel = fresnel_schlick(base.specular, vec3(1.0),
                                   dot(incoming, half_vector(incoming, drawn.outgoing)));
-        lobes = mirrored_light(fetched.base, drawn.mirrored[light], fresnel, drawn.outgoing,
-                               incoming) /
-                drawn.visible;
+        lobes = mirrored_light(fetched.base, drawn.mirrored[light], fresnel) / drawn.visible;
     } else {
         lobes = evaluate_base_material(base, fetched.mean_normal, surface.outgoing, incoming);
     }

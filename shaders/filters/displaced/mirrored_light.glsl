@@ -11,21 +11,20 @@ light_sum no_light() {
     return light_sum(0.0, vec2(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
 }
 
-void add_light(inout light_sum sum, light_sum other, float factor) {
-    sum.distribution += factor * other.distribution;
-    sum.place += factor * other.place;
-    sum.second_moments += factor * other.second_moments;
+// Of a bin, of which others hide all but a part. Its microfacets hide each other as its own facets
+// are seen: on flanks that face away from each other a mean over all facets would not tell.
+void add_seen_bin(inout light_sum sum, plane_bin bin, vec3 halfway, vec3 outgoing, vec3 incoming,
+                  float part) {
+    light_sum own = no_light();
+    add_masked_bin(own, bin, halfway, plane_from_direction(halfway), outgoing, incoming);
+    sum.reflected += part * own.reflected;
+    sum.outgoing += part * own.outgoing;
 }
 
-// Cook, Torrance, 1982, of all facets, over the base's area, where facets do not hide each other.
-vec3 mirrored_light(base_material base, light_sum sum, vec3 fresnel, vec3 outgoing,
-                    vec3 incoming) {
-    float scale = 1.0 / max(sum.distribution, 1e-20);
-    facing_cosines cosines = facing_cosines_of(
-        normal_spread_of(scale * sum.place, scale * sum.second_moments), incoming, outgoing);
-    float visible = masking_shadowing(DISTRIBUTION, cosines.incoming, cosines.outgoing, base.width);
-    return fresnel * scattering_scale(base.specular, cosines.outgoing, base.width) *
-           (0.25 * cosines.share * sum.distribution * visible);
+// Cook, Torrance, 1982, of all facets, over the base's area.
+vec3 mirrored_light(base_material base, light_sum sum, vec3 fresnel) {
+    float cosine = sum.outgoing / max(sum.reflected, 1e-20);
+    return fresnel * scattering_scale(base.specular, cosine, base.width) * sum.outgoing;
 }
 
 #endif
