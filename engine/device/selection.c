@@ -94,6 +94,7 @@ static void describe(const engine_instance_api *api, engine_candidate *candidate
     information->vulkan_minor = VK_API_VERSION_MINOR(properties->apiVersion);
     information->vulkan_patch = VK_API_VERSION_PATCH(properties->apiVersion);
     information->maximum_image_extent = properties->limits.maxImageDimension2D;
+    information->maximum_colour_outputs = properties->limits.maxColorAttachments;
     information->memory_bytes = device_local_bytes(api, candidate->physical);
     information->linear_filter_float32 = filters_float32(api, candidate->physical);
     candidate->queue_family =

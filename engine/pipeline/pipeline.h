@@ -12,7 +12,7 @@
 
 #include "engine/shader/shader.h"
 
-#define ENGINE_MAXIMUM_COLOUR_ATTACHMENTS 4
+#define ENGINE_MAXIMUM_COLOUR_ATTACHMENTS 8
 
 /// A pipeline with everything needed to bind resources to it: one descriptor set, set 0, shared by
 /// all stages.

@@ -27,11 +27,14 @@ static bool check_slot(lobe_pass *pass, const engine_graph_attachment *slot, con
 }
 
 static bool check_location(lobe_pass *pass, uint32_t location) {
-    if (location >= ENGINE_MAXIMUM_COLOUR_ATTACHMENTS)
+    const uint32_t device = lobe_device_describe(pass->graph->device)->maximum_colour_outputs;
+    const uint32_t count =
+        device < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS ? device : ENGINE_MAXIMUM_COLOUR_ATTACHMENTS;
+    if (location >= count)
         lobe_graph_fail(pass->graph, LOBE_ERROR_GRAPH,
-                        "pass '%s': colour location %u is not in [0, %d]", pass->name, location,
-                        ENGINE_MAXIMUM_COLOUR_ATTACHMENTS - 1);
-    return location < ENGINE_MAXIMUM_COLOUR_ATTACHMENTS;
+                        "pass '%s': colour location %u is not in [0, %u]", pass->name, location,
+                        count - 1);
+    return location < count;
 }
 
 static bool check_format(lobe_pass *pass, const engine_graph_resource *resource, bool depth) {

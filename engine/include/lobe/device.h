@@ -87,10 +87,11 @@ typedef struct lobe_device_information {
     char driver[512]; ///< driver name and version, for example "llvmpipe Mesa 22.3.6 (LLVM 15)"
     lobe_device_type type;
     uint32_t vulkan_major, vulkan_minor, vulkan_patch;
-    uint32_t maximum_image_extent; ///< texels
-    uint64_t memory_bytes;         ///< size of the largest device-local heap
-    double timestamp_period;       ///< nanoseconds per tick; 0 if passes cannot be timed
-    bool linear_filter_float32;    ///< RGBA32_FLOAT can be sampled with linear filtering
+    uint32_t maximum_image_extent;   ///< texels
+    uint32_t maximum_colour_outputs; ///< of a raster pass: at least 4
+    uint64_t memory_bytes;           ///< size of the largest device-local heap
+    double timestamp_period;         ///< nanoseconds per tick; 0 if passes cannot be timed
+    bool linear_filter_float32;      ///< RGBA32_FLOAT can be sampled with linear filtering
     const lobe_device_feature *features;
     size_t feature_count;
 } lobe_device_information;

@@ -283,8 +283,9 @@ typedef struct lobe_attachment {
     float clear[4]; ///< depth uses the first
 } lobe_attachment;
 
-/// Attaches a colour output: `location` of the fragment shader, [0, 3]. All attachments of a pass
-/// have the same extent and sample count. Returns the new version.
+/// Attaches a colour output: `location` of the fragment shader, [0, 7] and below the device's
+/// maximum_colour_outputs. All attachments of a pass have the same extent and sample count. Returns
+/// the new version.
 LOBE_API lobe_resource lobe_pass_colour(lobe_pass *pass, uint32_t location,
                                         const lobe_attachment *attachment);
 /// Resolves the multisampled colour output `location` (mean of the samples) to `target`. Returns
