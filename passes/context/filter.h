@@ -1,6 +1,7 @@
 #ifndef PASSES_CONTEXT_FILTER_H
 #define PASSES_CONTEXT_FILTER_H
 
+#include <lobe/device.h>
 #include <lobe/filter.h>
 #include <lobe/graph.h>
 #include <lobe/scene.h>
@@ -46,6 +47,7 @@ typedef struct filter_view {
 /// What a filter may use.
 typedef struct filter_context {
     lobe_graph *graph;
+    const lobe_device_information *device; ///< NULL where nothing is drawn
     const device_scene *scene;
     filter_view view;
     const lobe_filter *filter;
@@ -72,6 +74,8 @@ struct lobe_filter {
     const char *shading;
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
+    /// Shading takes longer than drawing a picture of surfaces (passes/renderer/surfaces/).
+    bool shades_long;
     bool reads_heights;      ///< of materials, whether they displace geometry or not
     bool stretches_slopes;   ///< those of heights: the shader reads STRETCHED
     bool draws_waves;        ///< the shader has a variant WAVES

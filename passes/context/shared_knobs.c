@@ -5,6 +5,7 @@
 
 static const char *const views[] = {"radiance", "lobes", "level", "samples", NULL};
 static const char *const sample_counts[] = {"1", "2", "4", "8", "auto", NULL};
+static const char *const shadings[] = {"triangles", "deferred", "auto", NULL};
 static const char *const bases[] = {"exact", "lobe", NULL};
 
 static const char *const displacements[] = {"none", "geometry", NULL};
@@ -38,6 +39,16 @@ const filter_knob passes_knob_samples = {
                     .kind = LOBE_KNOB_CHOICE,
                     .maximum = 4,
                     .choices = sample_counts},
+};
+const filter_knob passes_knob_shading = {
+    .description = {.name = "shading",
+                    .summary = "surfaces are shaded as their triangles are drawn, or afterwards, "
+                               "from a picture of what is seen of them; auto: where that is likely "
+                               "to be faster",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 2,
+                    .initial = 2,
+                    .choices = shadings},
 };
 const filter_knob passes_knob_base = {
     .description =
@@ -177,6 +188,7 @@ const filter_knob passes_knob_normal_mapping = {
 const filter_knob *const passes_shared_knobs[] = {
     &passes_knob_view,
     &passes_knob_samples,
+    &passes_knob_shading,
     &passes_knob_base,
     &passes_knob_displacement,
     &passes_knob_pixels_per_vertex,

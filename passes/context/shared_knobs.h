@@ -7,6 +7,8 @@
 extern const filter_knob *const passes_shared_knobs[];
 
 extern const filter_knob passes_knob_view, passes_knob_samples, passes_knob_base;
+/// Whether surfaces are shaded after all of them have been drawn (passes/renderer/surfaces/).
+extern const filter_knob passes_knob_shading;
 /// Whether height maps displace geometry, and how finely.
 extern const filter_knob passes_knob_displacement, passes_knob_pixels_per_vertex;
 /// Whether lights have shadow maps, and of how many texels.

@@ -90,6 +90,7 @@ static void fill_context(rendering *r, const lobe_filter *filter) {
     r->images = passes_filtered_images_of(renderer->filtered_images, renderer->scene->scene);
     r->context = (filter_context){
         .graph = renderer->graph,
+        .device = lobe_device_describe(renderer->device),
         .scene = renderer->scene,
         .view = {parameters->camera ? parameters->camera : &renderer->scene->scene->camera,
                  r->width, r->height},

@@ -12,6 +12,7 @@
 #include "passes/renderer/accumulation.h"
 #include "passes/renderer/background.h"
 #include "passes/renderer/light_parts.h"
+#include "passes/renderer/surfaces/surfaces.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/instance.h"
@@ -28,6 +29,7 @@ typedef struct shading {
     const shading_sample *sample;
     const shading_selection *selection; ///< NULL: all pixels
     light_counts lights;                ///< of the scene
+    seen_surfaces surfaces;
 } shading;
 
 /// What the draws of one pass share.
@@ -39,6 +41,7 @@ typedef struct drawing {
     bool depth_as_coverage;
     bool shadows;
     bool aov;
+    bool deferred; ///< surfaces come from their picture
     lobe_pass *pass;
 } drawing;
 
@@ -135,8 +138,11 @@ struct frame_constants passes_frame_constants(const filter_context *context,
     return frame;
 }
 
+/// None if no batch would read it.
 static lobe_resource upload_frame(const shading *s, light_part lights,
                                   const shading_targets *targets) {
+    if (s->draws->batch_count == 0)
+        return (lobe_resource){0};
     struct frame_constants frame =
         passes_frame_constants(s->context, s->sample, targets->width, targets->height);
     frame.directional_count = passes_light_part_count(&s->lights, lights, LOBE_LIGHT_DIRECTIONAL);
@@ -150,21 +156,32 @@ static bool draws_background(const filter_context *context, const environment_li
     return light->present && context->scene->scene->environment_visible;
 }
 
-static void attach(lobe_pass *pass, const filter_context *context, shading_targets *targets) {
+static bool has_aov(const shading_targets *targets) {
+    return targets->normal_depth.version || targets->normal_depth.index;
+}
+
+/// `begun`: some batches have been drawn.
+static void attach_colours(lobe_pass *pass, const filter_context *context, bool begun,
+                           shading_targets *targets) {
+    const lobe_load load = begun ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR;
     lobe_attachment radiance = {.resource = targets->radiance,
-                                .load = targets->keep_radiance ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR};
+                                .load = targets->keep_radiance ? LOBE_LOAD_KEEP : load};
     if (!targets->without_background)
         memcpy(radiance.clear, context->scene->scene->background, 3 * sizeof(float));
     targets->radiance = lobe_pass_colour(pass, 0, &radiance);
-    targets->depth = lobe_pass_depth(
-        pass, &(lobe_attachment){.resource = targets->depth,
-                                 .load = targets->keep_depth ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
-    if (targets->normal_depth.version || targets->normal_depth.index) {
-        targets->normal_depth =
-            lobe_pass_colour(pass, 1, &(lobe_attachment){.resource = targets->normal_depth});
-        targets->lobes_level =
-            lobe_pass_colour(pass, 2, &(lobe_attachment){.resource = targets->lobes_level});
+    if (has_aov(targets)) {
+        targets->normal_depth = lobe_pass_colour(
+            pass, 1, &(lobe_attachment){.resource = targets->normal_depth, .load = load});
+        targets->lobes_level = lobe_pass_colour(
+            pass, 2, &(lobe_attachment){.resource = targets->lobes_level, .load = load});
     }
+}
+
+static void attach_depth(lobe_pass *pass, bool begun, shading_targets *targets) {
+    const bool keep = begun || targets->keep_depth;
+    targets->depth =
+        lobe_pass_depth(pass, &(lobe_attachment){.resource = targets->depth,
+                                                 .load = keep ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
 }
 
 /// Where a draw takes its counts from, if it is one of a selection's.
@@ -173,6 +190,15 @@ static void select_draw(const shading_selection *selection, size_t number, lobe_
         return;
     draw->indirect = selection->arguments;
     draw->indirect_offset = (selection->first_argument + number) * sizeof(lobe_draw_arguments);
+}
+
+void passes_shading_select_batch(const shading_selection *selection, size_t batch,
+                                 lobe_draw *draw) {
+    select_draw(selection, FIRST_INSTANCE_DRAW + batch, draw);
+}
+
+void passes_shading_select_picture(const shading_selection *selection, lobe_draw *draw) {
+    select_draw(selection, MASK_DRAW, draw);
 }
 
 size_t passes_shading_draw_count(const draw_list *draws) {
@@ -196,8 +222,7 @@ shading_draw_count passes_shading_draw_counts(const filter_context *context, con
     };
 }
 
-/// Of the height map, if slopes follow how it is stretched; 0: they do not.
-static float stretched_map_width(const filter_context *context, const instance_batch *batch) {
+float passes_shading_map_width(const filter_context *context, const instance_batch *batch) {
     return context->filter->stretches_slopes ? context->scene->instances[batch->instance].map_width
                                              : 0;
 }
@@ -210,7 +235,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
-    passes_specialise(list, SPECIALISE_STRETCHED, stretched_map_width(d->context, batch) > 0);
+    passes_specialise(list, SPECIALISE_STRETCHED, passes_shading_map_width(d->context, batch) > 0);
     passes_specialise(list, SPECIALISE_HEIGHTS_TURNED,
                       d->context->filter->reads_heights &&
                           passes_heights_have_own_set(&scene->materials[drawn->material]));
@@ -223,6 +248,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
                       passes_environment_light_lights_at_once(d->light, lights));
     passes_specialise(list, SPECIALISE_SHADOWS, d->shadows);
     passes_specialise(list, SPECIALISE_DEPTH_AS_COVERAGE, d->depth_as_coverage);
+    passes_specialise(list, SPECIALISE_DEFERRED, d->deferred);
     passes_material_shading_specialise(d->context, d->light, &scene->materials[drawn->material],
                                        batch->appearance, list);
 }
@@ -230,13 +256,33 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
 static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_binding *bindings) {
     const device_scene *scene = d->context->scene;
     const device_instance *drawn = &scene->instances[batch->instance];
-    bindings[0] = (lobe_binding){.name = "instance_block",
-                                 .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)};
-    bindings[1] = (lobe_binding){.name = "vertex_block",
-                                 .resource = passes_batch_vertices(d->context, batch)};
-    return 2 + passes_material_shading_bind(d->context, d->light,
-                                            &scene->materials[drawn->material], batch->appearance,
-                                            bindings + 2);
+    size_t count = 0;
+    bindings[count++] = (lobe_binding){
+        .name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)};
+    if (!d->deferred)
+        bindings[count++] = (lobe_binding){.name = "vertex_block",
+                                           .resource = passes_batch_vertices(d->context, batch)};
+    return count + passes_material_shading_bind(d->context, d->light,
+                                                &scene->materials[drawn->material],
+                                                batch->appearance, bindings + count);
+}
+
+/// The batch's triangles.
+static void draw_triangles(const drawing *d, const instance_batch *batch, size_t index,
+                           lobe_draw *draw) {
+    draw->vertex_shader = "shading/shading.vert";
+    draw->cull = passes_batch_cull(d->context->scene, batch);
+    draw->depth_write = true;
+    passes_batch_set_counts(d->context, batch, DRAW_FOR_PICTURE, draw);
+    passes_shading_select_batch(d->selection, index, draw);
+}
+
+/// Where the picture of surfaces shows the batch.
+static void draw_pictured(const drawing *d, lobe_draw *draw) {
+    draw->vertex_shader = "shading/surfaces/surfaces.vert";
+    draw->depth_equal = true;
+    draw->index_count = 3;
+    passes_shading_select_picture(d->selection, draw);
 }
 
 static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
@@ -245,7 +291,8 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
     const struct draw_constants constants = {.first_instance = batch->first,
-                                             .map_width = stretched_map_width(context, batch)};
+                                             .map_width = passes_shading_map_width(context, batch),
+                                             .number = 1 + (uint32_t)index};
     lobe_binding bindings[2 + MATERIAL_SHADING_BINDINGS];
     size_t binding_count = bind_draw(d, batch, bindings);
     specialisation_list list = {.graph = context->graph};
@@ -253,11 +300,8 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     char fragment_shader[SHADING_NAME_SIZE];
     passes_material_shading_name(context, d->light, material, d->aov, fragment_shader);
     lobe_draw draw = {
-        .vertex_shader = "shading/shading.vert",
         .fragment_shader = fragment_shader,
-        .cull = passes_batch_cull(context->scene, batch),
         .depth_test = true,
-        .depth_write = true,
         .constants = &constants,
         .constants_size = sizeof constants,
         .specialisation = list.items,
@@ -265,14 +309,15 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
         .bindings = bindings,
         .binding_count = binding_count,
     };
-    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
-    select_draw(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
+    if (d->deferred)
+        draw_pictured(d, &draw);
+    else
+        draw_triangles(d, batch, index, &draw);
     lobe_pass_draw(d->pass, &draw);
 }
 
-/// Lets through the selected pixels alone: all others get the nearest depth.
-static void draw_mask(const drawing *d) {
-    const shading_selection *selection = d->selection;
+void passes_shading_draw_mask(lobe_pass *pass, const shading_selection *selection,
+                              const char *shader) {
     const bool occluded = selection->occluder.version != 0;
     const lobe_binding bindings[] = {
         {.name = "counts", .resource = selection->counts},
@@ -280,7 +325,7 @@ static void draw_mask(const drawing *d) {
     const uint32_t constants = occluded;
     lobe_draw draw = {
         .vertex_shader = "shading/background.vert",
-        .fragment_shader = "shading/samples/sample_mask.frag",
+        .fragment_shader = shader,
         .index_count = 3,
         .depth_write = true,
         .constants = &constants,
@@ -288,8 +333,8 @@ static void draw_mask(const drawing *d) {
         .bindings = bindings,
         .binding_count = 2,
     };
-    select_draw(selection, MASK_DRAW, &draw);
-    lobe_pass_draw(d->pass, &draw);
+    passes_shading_select_picture(selection, &draw);
+    lobe_pass_draw(pass, &draw);
 }
 
 static void draw_background(const drawing *d, const shading_sample *sample, bool aov) {
@@ -299,45 +344,62 @@ static void draw_background(const drawing *d, const shading_sample *sample, bool
 }
 
 /// What the draws of all instances read.
-static void bind_pass(lobe_pass *pass, const shading *s, light_part lights,
-                      const shading_light *light, const shading_targets *targets) {
+static void bind_pass(lobe_pass *pass, const shading *s, lobe_resource frame,
+                      const shading_light *light) {
     if (s->draws->batch_count == 0)
         return;
-    lobe_resource frame = upload_frame(s, lights, targets);
     lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = frame});
     lobe_pass_read(pass, &(lobe_binding){.name = "light_block", .resource = light->punctual});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_maps", .resource = light->shadows.maps});
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "shadow_slopes", .resource = light->shadows.slopes});
     lobe_pass_read(pass, &(lobe_binding){.name = "shadow_block", .resource = light->shadows.views});
+    lobe_pass_read(pass, &(lobe_binding){.name = "surfaces", .resource = s->surfaces.layers});
     passes_knobs_bind(s->context, pass);
     passes_environment_light_bind(&light->environment, s->context, pass, s->sample);
 }
 
-/// Draws one part of the lights.
-static void draw_part(const shading *s, light_part lights, const shading_light *light,
-                      shading_targets *targets) {
+/// A pass that shades batches by their triangles, or those that are in the picture of surfaces.
+/// `begun`: some batches have been drawn, and the background.
+static void draw_pass(shading *s, bool deferred, bool begun, lobe_resource frame,
+                      const shading_light *light, shading_targets *targets) {
     const filter_context *context = s->context;
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER,
                                           s->selection ? "sample_shading" : "shading");
-    bind_pass(pass, s, lights, light, targets);
-    bool aov = targets->normal_depth.version || targets->normal_depth.index;
-    attach(pass, context, targets);
-    drawing d = {.context = context,
-                 .light = &light->environment,
-                 .lights = &s->lights,
-                 .selection = s->selection,
-                 .depth_as_coverage = targets->depth_as_coverage,
-                 .shadows = light->shadows.present,
-                 .aov = aov,
-                 .pass = pass};
-    if (s->selection)
-        draw_mask(&d);
+    bind_pass(pass, s, frame, light);
+    attach_colours(pass, context, begun, targets);
+    if (deferred)
+        s->surfaces.numbers = lobe_pass_depth(
+            pass, &(lobe_attachment){.resource = s->surfaces.numbers, .load = LOBE_LOAD_KEEP});
+    else
+        attach_depth(pass, begun, targets);
+    const drawing d = {.context = context,
+                       .light = &light->environment,
+                       .lights = &s->lights,
+                       .selection = s->selection,
+                       .depth_as_coverage = targets->depth_as_coverage,
+                       .shadows = light->shadows.present,
+                       .aov = has_aov(targets),
+                       .deferred = deferred,
+                       .pass = pass};
+    if (s->selection && !deferred && !begun)
+        passes_shading_draw_mask(pass, s->selection, "shading/samples/sample_mask.frag");
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
-        !targets->without_background)
-        draw_background(&d, s->sample, aov);
+        !targets->without_background && !begun)
+        draw_background(&d, s->sample, d.aov);
     for (size_t i = 0; i < s->draws->batch_count; i++)
-        draw_batch(&d, s->draws, i);
+        if (!s->surfaces.present ||
+            passes_surfaces_hold(context, &s->draws->batches[i]) == deferred)
+            draw_batch(&d, s->draws, i);
+}
+
+/// Draws one part of the lights.
+static void draw_part(shading *s, lobe_resource frame, const shading_light *light,
+                      shading_targets *targets) {
+    if (s->surfaces.present)
+        draw_pass(s, true, false, frame, light, targets);
+    if (!s->surfaces.present || !s->surfaces.holds_all)
+        draw_pass(s, false, s->surfaces.present, frame, light, targets);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -348,17 +410,16 @@ static lobe_resource copy_depth(lobe_graph *graph, lobe_resource from, lobe_reso
     return lobe_pass_copy(pass, from, (lobe_range){0}, to, (lobe_range){0});
 }
 
-/// What the host drew hides surfaces in every pass. Drawing the first part overwrites it.
-static lobe_resource keep_depth(lobe_graph *graph, const shading_targets *targets) {
-    return targets->keep_depth
-               ? copy_depth(graph, targets->depth,
-                            declare_target(graph, "host's depth", LOBE_FORMAT_D32_FLOAT,
-                                           targets->width, targets->height))
-               : (lobe_resource){0};
+/// What was drawn before hides surfaces in every pass. Drawing the first part overwrites it.
+static lobe_resource keep_depth(lobe_graph *graph, bool kept, const shading_targets *targets) {
+    return kept ? copy_depth(graph, targets->depth,
+                             declare_target(graph, "depth before", LOBE_FORMAT_D32_FLOAT,
+                                            targets->width, targets->height))
+                : (lobe_resource){0};
 }
 
-/// The lights from `first` on, in a picture of their own. `depth`: the host's, if it is kept.
-static lobe_resource draw_further(const shading *s, const shading_light *light, uint32_t first,
+/// The lights from `first` on, in a picture of their own. `depth`: drawn before; none: nothing is.
+static lobe_resource draw_further(shading *s, const shading_light *light, uint32_t first,
                                   const shading_targets *targets, lobe_resource depth) {
     lobe_graph *graph = s->context->graph;
     const uint32_t width = targets->width, height = targets->height;
@@ -366,7 +427,7 @@ static lobe_resource draw_further(const shading *s, const shading_light *light, 
     punctual.environment.present = false;
     shading_targets one = passes_shading_targets_declare(graph, width, height, false);
     one.without_background = true;
-    one.keep_depth = targets->keep_depth;
+    one.keep_depth = depth.version > 0;
     lobe_pass *clear = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
     lobe_resource sum = lobe_pass_fill(
         clear, declare_target(graph, "further lights", LOBE_FORMAT_RGBA32_FLOAT, width, height),
@@ -376,7 +437,7 @@ static lobe_resource draw_further(const shading *s, const shading_light *light, 
         punctual.punctual = upload_lights(s->context, &punctual.further, part);
         if (one.keep_depth)
             one.depth = copy_depth(graph, depth, one.depth);
-        draw_part(s, part, &punctual, &one);
+        draw_part(s, upload_frame(s, part, targets), &punctual, &one);
         sum = passes_accumulation(graph, one.radiance, sum, width, height);
         first += part.count;
     }
@@ -405,12 +466,19 @@ static bool shows_light(const filter_context *context) {
 void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
                     const shading_selection *selection, shading_targets *targets) {
-    const shading s = {context, draws, sample, selection,
-                       passes_light_counts(context->scene->scene)};
+    shading s = {.context = context,
+                 .draws = draws,
+                 .sample = sample,
+                 .selection = selection,
+                 .lights = passes_light_counts(context->scene->scene)};
     const light_part first = passes_light_part(context, 0);
+    const lobe_resource frame = upload_frame(&s, first, targets);
+    s.surfaces = passes_surfaces(context, draws, frame, selection, light->shadows.present, targets);
     const bool several = shows_light(context) && first.count < context->scene->scene->light_count;
-    const lobe_resource depth = several ? keep_depth(context->graph, targets) : (lobe_resource){0};
-    draw_part(&s, first, light, targets);
+    const bool kept = s.surfaces.present ? !s.surfaces.holds_all : targets->keep_depth;
+    const lobe_resource depth =
+        several ? keep_depth(context->graph, kept, targets) : (lobe_resource){0};
+    draw_part(&s, frame, light, targets);
     if (several)
         add_light(context->graph, draw_further(&s, light, first.count, targets, depth), targets);
 }

@@ -65,6 +65,18 @@ void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
                     const shading_selection *selection, shading_targets *targets);
 
+/// Of the height map, the object's lengths, if the filter's slopes follow how it is stretched; 0:
+/// they do not.
+float passes_shading_map_width(const filter_context *context, const instance_batch *batch);
+
+/// A draw takes its counts from those of a selection; NULL: as it is.
+void passes_shading_select_batch(const shading_selection *selection, size_t batch, lobe_draw *draw);
+/// A draw over the whole picture, if any pixels are selected.
+void passes_shading_select_picture(const shading_selection *selection, lobe_draw *draw);
+/// Lets through the selected pixels alone: all others get the nearest depth. `shader`: writes it.
+void passes_shading_draw_mask(lobe_pass *pass, const shading_selection *selection,
+                              const char *shader);
+
 /// What a draw draws.
 typedef struct shading_draw_count {
     uint32_t indices; ///< or vertices

@@ -6,6 +6,7 @@
 #include "passes/maps/tile_knobs.h"
 #include "passes/renderer/culling/culling.h"
 #include "passes/renderer/shading.h"
+#include "passes/renderer/surfaces/surfaces.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
 #include "shaders/interface/map_tiles.h"
@@ -155,6 +156,8 @@ static lobe_resource draw_marks(rendering *r, lobe_resource marks) {
         pass, &(lobe_binding){.name = "frame_block",
                               .resource = lobe_graph_upload(graph, "frame", &frame, sizeof frame)});
     passes_shared_knobs_bind(&r->context, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "surfaces",
+                                         .resource = passes_surfaces_absent(&r->context).layers});
     marks = lobe_pass_modify(pass, &(lobe_binding){.name = "mark_block", .resource = marks});
     const lobe_resource depth =
         lobe_graph_image(graph, &(lobe_image_description){.name = "depth of tiles",

@@ -13,9 +13,11 @@ INTERFACE_SIZE(instance_constants, 48)
 struct draw_constants {
     uint first_instance; // index of its transform; those of the others follow
     float map_width;     // of the height map, the object's lengths, if slopes follow its stretching
+    uint number;         // of the batch, from 1 on, in the picture of surfaces
 };
-INTERFACE_SIZE(draw_constants, 8)
+INTERFACE_SIZE(draw_constants, 12)
 INTERFACE_OFFSET(draw_constants, map_width, 4)
+INTERFACE_OFFSET(draw_constants, number, 8)
 
 // Push constants of culling: what lies behind one of four planes is not seen.
 struct culling_constants {

@@ -45,6 +45,7 @@
 #define SPECIALISE_STRETCHED SPECIALISE(30)
 // bool, of the material and the filter: tangents do not follow the height map's coordinates
 #define SPECIALISE_HEIGHTS_TURNED SPECIALISE(59)
+#define SPECIALISE_DEFERRED       SPECIALISE(58) // bool: surfaces come from a picture of them
 // Filtered maps, see shaders/shading/filtered_maps.glsl.
 #define SPECIALISE_PROBES         SPECIALISE(32) // uint, [1, 16]
 #define SPECIALISE_ANISOTROPY     SPECIALISE(33) // uint, [1, 16]

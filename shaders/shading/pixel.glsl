@@ -7,10 +7,11 @@
 #include "interface/frame.h"
 #include "interface/instance.h"
 #include "shading/surface.glsl"
-#include "shading/tangent_frame.glsl"
 #include "lib/map/coordinate_frame.glsl"
 #include "lib/map/slope_stretch.glsl"
 
+// The pixel's surface comes from the picture of surfaces, not from a triangle that is being mesh.
+layout(constant_id = SPECIALISE_DEFERRED) const bool DEFERRED = false;
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;
 layout(constant_id = SPECIALISE_DEPTH_AS_COVERAGE) const bool DEPTH_AS_COVERAGE = false;
@@ -21,28 +22,25 @@ layout(set = 0, binding = 12, std430) readonly buffer instance_block {
 };
 layout(push_constant) uniform draw_block { draw_constants draw; };
 
-layout(location = 0) in vec3 interpolated_position;
-layout(location = 1) in vec3 interpolated_normal;
-layout(location = 2) in vec4 interpolated_tangent;
-layout(location = 3) in vec4 interpolated_coordinates;
-layout(location = 4) in vec4 interpolated_colour;
-layout(location = 5) in float interpolated_map_width;
-layout(location = 6) flat in float drawn_spacing;
+#include "shading/surfaces/pictured_point.glsl"
+
+// What is drawn at the pixel; set by read_surface.
+mesh_point mesh;
 
 bool front_side() {
-    return gl_FrontFacing != MIRRORED;
+    return mesh.front;
 }
 
 // Distance along the view, metres.
 float view_depth() {
-    return dot(frame.axis.xyz, interpolated_position) - frame.axis.w;
+    return dot(frame.axis.xyz, mesh.position) - frame.axis.w;
 }
 
 // The slope of the triangle, which faces the viewer, over the plane of the tangent frame. Triangles
 // that stand upright or lean over are not slopes of the relief: they close gaps left by vertices
 // that slide along a patch's edge. Above a slope of 7 they count as less steep, above 20 as level.
 vec2 triangle_slope(surface_point surface) {
-    vec3 normal = normalize(cross(dFdx(interpolated_position), dFdy(interpolated_position)) *
+    vec3 normal = normalize(cross(mesh.position_dx, mesh.position_dy) *
                             surface.world_from_tangent);
     normal = dot(normal, surface.outgoing) < 0.0 ? -normal : normal;
     return smoothstep(0.05, 0.15, normal.z) / max(normal.z, 0.05) * -normal.xy;
@@ -51,12 +49,12 @@ vec2 triangle_slope(surface_point surface) {
 // The back's frame is the front's reversed, and so are heights: slopes are the same over both.
 mat2 stretch_at(surface_point surface) {
     vec2 size = vec2(textureSize(normal_map, 0));
-    return slope_stretch(dFdx(interpolated_position) * surface.world_from_tangent,
-                         dFdy(interpolated_position) * surface.world_from_tangent,
-                         map_coordinates(MAP_NORMAL, dFdx(interpolated_coordinates), 0.0),
-                         map_coordinates(MAP_NORMAL, dFdy(interpolated_coordinates), 0.0),
+    return slope_stretch(mesh.position_dx * surface.world_from_tangent,
+                         mesh.position_dy * surface.world_from_tangent,
+                         map_coordinates(MAP_NORMAL, mesh.coordinates_dx, 0.0),
+                         map_coordinates(MAP_NORMAL, mesh.coordinates_dy, 0.0),
                          surface.outgoing,
-                         front_side() ? interpolated_map_width : -interpolated_map_width,
+                         front_side() ? mesh.map_width : -mesh.map_width,
                          size.y / size.x);
 }
 
@@ -64,31 +62,27 @@ mat2 stretch_at(surface_point surface) {
 mat2 heights_frame_at(surface_point surface) {
     float side = front_side() ? 1.0 : -1.0;
     bool second = (SECOND_COORDINATES & (1u << MAP_HEIGHT)) != 0u;
-    vec4 right = dFdx(interpolated_coordinates), down = dFdy(interpolated_coordinates);
+    vec4 right = mesh.coordinates_dx, down = mesh.coordinates_dy;
     return coordinate_frame(
-        side * (dFdx(interpolated_position) * surface.world_from_tangent).xy,
-        side * (dFdy(interpolated_position) * surface.world_from_tangent).xy,
+        side * (mesh.position_dx * surface.world_from_tangent).xy,
+        side * (mesh.position_dy * surface.world_from_tangent).xy,
         second ? right.zw : right.xy, second ? down.zw : down.xy);
 }
 
 surface_point read_surface() {
     surface_point surface;
-    mat3 from_tangent = tangent_frame(interpolated_normal, interpolated_tangent);
-    // The back of a surface has all axes reversed (glTF 2.0, section 3.9.6).
-    surface.world_from_tangent = front_side() ? from_tangent : -from_tangent;
-    vec3 world_outgoing = normalize(frame.eye.xyz - interpolated_position * frame.eye.w);
+    if (DEFERRED)
+        mesh = pictured_point();
+    else
+        mesh = interpolated_point();
+    surface.world_from_tangent = frame_of(mesh);
+    vec3 world_outgoing = normalize(frame.eye.xyz - mesh.position * frame.eye.w);
     surface.outgoing = world_outgoing * surface.world_from_tangent;
-    surface.coordinates = interpolated_coordinates;
-    surface.coordinates_dx = frame.footprint * dFdx(interpolated_coordinates);
-    surface.coordinates_dy = frame.footprint * dFdy(interpolated_coordinates);
-    surface.colour = interpolated_colour;
-    surface.curvature = vec3(0.0);
-    if (CURVATURE) {
-        vec3 normal = surface.world_from_tangent[2];
-        surface.curvature = normal_covariance(
-            frame.footprint * (dFdx(normal) * surface.world_from_tangent).xy,
-            frame.footprint * (dFdy(normal) * surface.world_from_tangent).xy);
-    }
+    surface.coordinates = mesh.coordinates;
+    surface.coordinates_dx = frame.footprint * mesh.coordinates_dx;
+    surface.coordinates_dy = frame.footprint * mesh.coordinates_dy;
+    surface.colour = mesh.colour;
+    surface.curvature = mesh.curvature;
     surface.pixel = uvec2(gl_FragCoord.xy);
     surface.depth = view_depth();
     surface.dither = frame.dither;
@@ -96,7 +90,7 @@ surface_point read_surface() {
     surface.vertex_spacing = 0.0;
     if (DISPLACED) {
         surface.drawn_slope = triangle_slope(surface);
-        surface.vertex_spacing = drawn_spacing / frame.footprint;
+        surface.vertex_spacing = mesh.vertex_spacing / frame.footprint;
     }
     surface.stretch = mat2(1.0);
     if (STRETCHED)

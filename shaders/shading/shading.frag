@@ -34,7 +34,7 @@ layout(location = 2) out vec2 lobes_level_out;
 #endif
 
 vec3 incoming_direction(uint i, surface_point surface) {
-    return light_direction(i, interpolated_position) * surface.world_from_tangent;
+    return light_direction(i, mesh.position) * surface.world_from_tangent;
 }
 
 // Radiance from all lights, LIGHTS_AT_ONCE at a time.
@@ -52,10 +52,10 @@ vec3 reflected_radiance(inout appearance fetched, surface_point surface, drawn_p
                                           : incoming[0];
         gather_lights(fetched, surface, incoming);
         for (uint i = 0u; i < LIGHTS_AT_ONCE && first + i < count; ++i) {
-            vec3 direction = light_direction(first + i, interpolated_position);
-            vec3 irradiance = light_irradiance(first + i, interpolated_position, direction);
+            vec3 direction = light_direction(first + i, mesh.position);
+            vec3 irradiance = light_irradiance(first + i, mesh.position, direction);
             if (SHADOWS)
-                irradiance *= light_visibility(first + i, interpolated_position, direction, plane);
+                irradiance *= light_visibility(first + i, mesh.position, direction, plane);
             vec3 own = direction * surface.world_from_tangent;
             sum += irradiance *
                    add_colour_normals(evaluate_appearance(fetched, surface, own, i), surface, own);
@@ -88,7 +88,7 @@ void main() {
         value = vec3(fetched.lobe_count);
     if (VIEW == VIEW_LEVEL)
         value = vec3(fetched.level);
-    radiance_out = vec4(value, DEPTH_AS_COVERAGE ? max(gl_FragCoord.z, 1e-30) : 1.0);
+    radiance_out = vec4(value, DEPTH_AS_COVERAGE ? max(mesh.depth, 1e-30) : 1.0);
 
 #ifdef AOV
     vec3 world_normal = normalize(surface.world_from_tangent * fetched.normal);

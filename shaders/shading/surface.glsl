@@ -39,6 +39,9 @@ layout(constant_id = SPECIALISE_STRETCHED) const bool STRETCHED = false;
 layout(constant_id = SPECIALISE_HEIGHTS_TURNED) const bool HEIGHTS_TURNED = false;
 
 layout(LOBE_DESCRIPTOR(10), std140) uniform knob_block { shared_knobs knobs; };
+
+#include "shading/curvature.glsl"
+
 layout(LOBE_DESCRIPTOR(3), std140) uniform material_block { material_constants material; };
 
 layout(LOBE_DESCRIPTOR(4)) uniform sampler2D base_colour_map;
@@ -75,17 +78,6 @@ struct surface_point {
 
 bool has_map(int map) {
     return (MAPS & (1u << map)) != 0u;
-}
-
-// A larger variance means that the pixel is at a silhouette, where derivatives are meaningless.
-const float CURVATURE_MAXIMUM = 0.1;
-
-// Covariance of the macro-surface's normal over the sample's box, from its change along both sides,
-// assuming that it changes linearly: a box of width one has the variance 1/12.
-vec3 normal_covariance(vec2 dx, vec2 dy) {
-    vec3 covariance = (knobs.curvature / 12.0) * vec3(dx * dx + dy * dy, dx.x * dx.y + dy.x * dy.y);
-    float variance = max(covariance.x, covariance.y);
-    return covariance * min(1.0, CURVATURE_MAXIMUM / max(variance, 1e-30));
 }
 
 // Texture coordinates at which a map is read (`one`: 1), or a difference of them (`one`: 0).

@@ -264,6 +264,7 @@ static known_member known[] = {
     MEMBER(culled_batch, index_count, 4),
     MEMBER(draw_constants, first_instance, 0),
     MEMBER(draw_constants, map_width, 1),
+    MEMBER(draw_constants, number, 2),
     MEMBER(hemisphere_moments_constants, size, 0),
     MEMBER(irradiance_harmonics, coefficients, 0),
     MEMBER(irradiance_remainder_constants, size, 0),

@@ -1,18 +1,8 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
 
-// Hides all pixels that take one sample: they get the nearest depth. The others get the depth of
-// what was drawn before, if there is anything.
-
-layout(push_constant) uniform constants_block {
-    uint occluded; // bool
-};
-layout(set = 0, binding = 0) uniform sampler2D counts;
-layout(set = 0, binding = 1) uniform sampler2D occluder;
+#include "shading/samples/sample_mask.glsl"
 
 void main() {
-    ivec2 position = ivec2(gl_FragCoord.xy);
-    bool hidden = texelFetch(counts, position, 0).r == 1.0;
-    if (!hidden && occluded == 0u)
-        discard;
-    gl_FragDepth = hidden ? 1.0 : texelFetch(occluder, position, 0).r;
+    gl_FragDepth = hidden_depth();
 }

@@ -30,7 +30,7 @@ struct drawn_plane {
 };
 
 drawn_plane plane_of_triangle() {
-    return drawn_plane(dFdx(interpolated_position), dFdy(interpolated_position));
+    return drawn_plane(mesh.position_dx, mesh.position_dy);
 }
 
 // How a depth changes across clip space, on the triangle's plane.

@@ -1,0 +1,10 @@
+#ifndef PASSES_RENDERER_DEFERRAL_H
+#define PASSES_RENDERER_DEFERRAL_H
+
+#include "passes/renderer/draw_list.h"
+
+/// Whether surfaces are shaded from a picture of them (surfaces.h), as the knob `shading` says:
+/// with `auto`, on CPUs where that is likely to take less time.
+bool passes_defers_shading(const filter_context *context, const draw_list *draws);
+
+#endif

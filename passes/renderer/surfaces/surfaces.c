@@ -1,0 +1,182 @@
+#include "passes/renderer/surfaces/surfaces.h"
+
+#include <string.h>
+
+#include "passes/context/knob_values.h"
+#include "passes/context/shared_knobs.h"
+#include "passes/renderer/surfaces/deferral.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/specialisation.h"
+#include "shaders/interface/surfaces.h"
+
+/// What the passes share.
+typedef struct surfaces_drawing {
+    const filter_context *context;
+    const draw_list *draws;
+    lobe_resource frame;
+    const shading_selection *selection; ///< NULL: all pixels
+    bool plane, colours;                ///< the picture has these layers
+} surfaces_drawing;
+
+static const device_material *material_of(const filter_context *context,
+                                          const instance_batch *batch) {
+    return &context->scene->materials[context->scene->instances[batch->instance].material];
+}
+
+bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch) {
+    const device_material *material = material_of(context, batch);
+    return !material->masked && passes_second_coordinates(material) == 0;
+}
+
+seen_surfaces passes_surfaces_absent(const filter_context *context) {
+    return (seen_surfaces){.layers =
+                               lobe_graph_import_texture(context->graph, context->scene->white)};
+}
+
+// ---------------------------------------------------------------------------------------------
+// Which layers
+
+static bool has_colour(const filter_context *context, const instance_batch *batch) {
+    const device_scene *scene = context->scene;
+    return scene->scene->meshes[scene->instances[batch->instance].mesh].has_colour;
+}
+
+/// Whether shading needs to know how the triangle lies that is seen.
+static bool needs_plane(const filter_context *context, const instance_batch *batch) {
+    return batch->displaced.vertices.version > 0 || passes_shading_map_width(context, batch) > 0;
+}
+
+static void find_layers(surfaces_drawing *d, bool shadows) {
+    d->plane = shadows;
+    for (uint32_t i = 0; i < d->draws->batch_count; i++) {
+        const instance_batch *batch = &d->draws->batches[i];
+        if (!passes_surfaces_hold(d->context, batch))
+            continue;
+        d->plane |= needs_plane(d->context, batch);
+        d->colours |= has_colour(d->context, batch);
+    }
+}
+
+static uint32_t layer_count(const surfaces_drawing *d) {
+    if (d->colours)
+        return SURFACES_LAYERS;
+    return d->plane ? SURFACES_PLANE_LAYERS : SURFACES_LEAST_LAYERS;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Passes
+
+/// Where nothing is drawn: shaders of pixels around may take steps with it, and drop the result.
+static const float nothing[SURFACES_LAYERS][4] = {
+    [SURFACES_NORMAL] = {0, 0, 1, 0},
+    [SURFACES_TANGENT] = {1, 0, 0, 0},
+    [SURFACES_GRADIENTS] = {1e-3f, 0, 0, 1e-3f},
+    [SURFACES_RIGHT] = {1e-3f, 0, 0, 0},
+    [SURFACES_DOWN] = {0, 1e-3f, 0, 0},
+    [SURFACES_COLOUR] = {1, 1, 1, 1},
+};
+
+static lobe_resource attach(const surfaces_drawing *d, lobe_pass *pass,
+                            const shading_targets *targets) {
+    lobe_resource layers =
+        lobe_graph_image(d->context->graph, &(lobe_image_description){
+                                                .name = "surfaces",
+                                                .format = LOBE_FORMAT_RGBA32_FLOAT,
+                                                .width = targets->width,
+                                                .height = targets->height,
+                                                .layers = layer_count(d),
+                                            });
+    for (uint32_t i = 0; i < layer_count(d); i++) {
+        lobe_attachment attachment = {.resource = layers, .layer = i};
+        memcpy(attachment.clear, nothing[i], sizeof attachment.clear);
+        layers = lobe_pass_colour(pass, i, &attachment);
+    }
+    return layers;
+}
+
+static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t index) {
+    const filter_context *context = d->context;
+    const instance_batch *batch = &d->draws->batches[index];
+    const struct draw_constants constants = {
+        .first_instance = batch->first,
+        .map_width = passes_shading_map_width(context, batch),
+        .number = 1 + index,
+    };
+    const lobe_binding bindings[] = {
+        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
+        {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
+    };
+    specialisation_list list = {.graph = context->graph};
+    passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
+    passes_specialise(&list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
+    passes_specialise(&list, SPECIALISE_STRETCHED, constants.map_width > 0);
+    passes_knobs_specialise(context, &list);
+    lobe_draw draw = {
+        .vertex_shader = "shading/shading.vert",
+        .fragment_shader = "shading/surfaces/surfaces.frag",
+        .cull = passes_batch_cull(context->scene, batch),
+        .depth_test = true,
+        .depth_write = true,
+        .constants = &constants,
+        .constants_size = sizeof constants,
+        .specialisation = list.items,
+        .specialisation_count = list.count,
+        .bindings = bindings,
+        .binding_count = sizeof bindings / sizeof *bindings,
+    };
+    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
+    passes_shading_select_batch(d->selection, index, &draw);
+    lobe_pass_draw(pass, &draw);
+}
+
+static lobe_resource draw_layers(const surfaces_drawing *d, shading_targets *targets) {
+    lobe_pass *pass = lobe_graph_add_pass(d->context->graph, LOBE_PASS_RASTER, "surfaces");
+    lobe_pass_read(pass, &(lobe_binding){.name = "frame_block", .resource = d->frame});
+    passes_shared_knobs_bind(d->context, pass);
+    const lobe_resource layers = attach(d, pass, targets);
+    targets->depth = lobe_pass_depth(
+        pass, &(lobe_attachment){.resource = targets->depth,
+                                 .load = targets->keep_depth ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+    if (d->selection)
+        passes_shading_draw_mask(pass, d->selection, "shading/surfaces/surface_mask.frag");
+    for (uint32_t i = 0; i < d->draws->batch_count; i++)
+        if (passes_surfaces_hold(d->context, &d->draws->batches[i]))
+            draw_batch(d, pass, i);
+    return layers;
+}
+
+static lobe_resource draw_numbers(const filter_context *context, lobe_resource layers,
+                                  const shading_targets *targets) {
+    const lobe_resource numbers =
+        lobe_graph_image(context->graph, &(lobe_image_description){.name = "numbers of surfaces",
+                                                                   .format = LOBE_FORMAT_D32_FLOAT,
+                                                                   .width = targets->width,
+                                                                   .height = targets->height});
+    lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_RASTER, "surface_numbers");
+    const lobe_binding binding = {.name = "surfaces", .resource = layers};
+    const lobe_resource drawn =
+        lobe_pass_depth(pass, &(lobe_attachment){.resource = numbers, .load = LOBE_LOAD_DISCARD});
+    lobe_pass_draw(pass, &(lobe_draw){.vertex_shader = "shading/background.vert",
+                                      .fragment_shader = "shading/surfaces/surface_numbers.frag",
+                                      .index_count = 3,
+                                      .depth_write = true,
+                                      .bindings = &binding,
+                                      .binding_count = 1});
+    return drawn;
+}
+
+seen_surfaces passes_surfaces(const filter_context *context, const draw_list *draws,
+                              lobe_resource frame, const shading_selection *selection, bool shadows,
+                              shading_targets *targets) {
+    if (!passes_defers_shading(context, draws))
+        return passes_surfaces_absent(context);
+    surfaces_drawing d = {
+        .context = context, .draws = draws, .frame = frame, .selection = selection};
+    find_layers(&d, shadows);
+    seen_surfaces surfaces = {.present = true, .holds_all = true};
+    for (uint32_t i = 0; i < draws->batch_count; i++)
+        surfaces.holds_all &= passes_surfaces_hold(context, &draws->batches[i]);
+    surfaces.layers = draw_layers(&d, targets);
+    surfaces.numbers = draw_numbers(context, surfaces.layers, targets);
+    return surfaces;
+}
