@@ -204,3 +204,8 @@ lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *bat
     const lobe_cull outside = batch->mirrored ? LOBE_CULL_FRONT : LOBE_CULL_BACK;
     return material->material->double_sided ? LOBE_CULL_NONE : outside;
 }
+
+float passes_batch_map_width(const filter_context *context, const instance_batch *batch) {
+    return context->filter->stretches_slopes ? context->scene->instances[batch->instance].map_width
+                                             : 0;
+}

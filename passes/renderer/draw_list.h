@@ -77,6 +77,9 @@ lobe_resource passes_batch_transforms(const instance_batch *batch, draw_view vie
 /// Sets the indices of a draw, how many there are, and how many instances.
 void passes_batch_set_counts(const filter_context *context, const instance_batch *batch,
                              draw_view view, lobe_draw *draw);
+/// Of the height map, the object's lengths, if the filter's slopes follow how it is stretched; 0:
+/// they do not.
+float passes_batch_map_width(const filter_context *context, const instance_batch *batch);
 lobe_cull passes_batch_cull(const device_scene *scene, const instance_batch *batch);
 
 #endif

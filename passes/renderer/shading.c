@@ -19,9 +19,6 @@
 #include "shaders/interface/light.h"
 #include "shaders/interface/specialisation.h"
 
-/// The draws of a pass, in order; only a selection has a mask, and not every scene a background.
-enum { MASK_DRAW, BACKGROUND_DRAW, FIRST_INSTANCE_DRAW };
-
 /// What the passes of one picture share.
 typedef struct shading {
     const filter_context *context;
@@ -184,23 +181,6 @@ static void attach_depth(lobe_pass *pass, bool begun, shading_targets *targets) 
                                                  .load = keep ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
 }
 
-/// Where a draw takes its counts from, if it is one of a selection's.
-static void select_draw(const shading_selection *selection, size_t number, lobe_draw *draw) {
-    if (!selection)
-        return;
-    draw->indirect = selection->arguments;
-    draw->indirect_offset = (selection->first_argument + number) * sizeof(lobe_draw_arguments);
-}
-
-void passes_shading_select_batch(const shading_selection *selection, size_t batch,
-                                 lobe_draw *draw) {
-    select_draw(selection, FIRST_INSTANCE_DRAW + batch, draw);
-}
-
-void passes_shading_select_picture(const shading_selection *selection, lobe_draw *draw) {
-    select_draw(selection, MASK_DRAW, draw);
-}
-
 size_t passes_shading_draw_count(const draw_list *draws) {
     return FIRST_INSTANCE_DRAW + draws->batch_count;
 }
@@ -222,11 +202,6 @@ shading_draw_count passes_shading_draw_counts(const filter_context *context, con
     };
 }
 
-float passes_shading_map_width(const filter_context *context, const instance_batch *batch) {
-    return context->filter->stretches_slopes ? context->scene->instances[batch->instance].map_width
-                                             : 0;
-}
-
 /// The constants of a draw: for its material, its mesh, the lights and the settings.
 static void specialise_draw(const drawing *d, const instance_batch *batch,
                             specialisation_list *list) {
@@ -235,7 +210,7 @@ static void specialise_draw(const drawing *d, const instance_batch *batch,
     passes_specialise(list, SPECIALISE_VERTEX_COLOUR, scene->scene->meshes[drawn->mesh].has_colour);
     passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
     passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
-    passes_specialise(list, SPECIALISE_STRETCHED, passes_shading_map_width(d->context, batch) > 0);
+    passes_specialise(list, SPECIALISE_STRETCHED, passes_batch_map_width(d->context, batch) > 0);
     passes_specialise(list, SPECIALISE_HEIGHTS_TURNED,
                       d->context->filter->reads_heights &&
                           passes_heights_have_own_set(&scene->materials[drawn->material]));
@@ -274,7 +249,7 @@ static void draw_triangles(const drawing *d, const instance_batch *batch, size_t
     draw->cull = passes_batch_cull(d->context->scene, batch);
     draw->depth_write = true;
     passes_batch_set_counts(d->context, batch, DRAW_FOR_PICTURE, draw);
-    passes_shading_select_batch(d->selection, index, draw);
+    passes_selection_count(d->selection, FIRST_INSTANCE_DRAW + index, draw);
 }
 
 /// Where the picture of surfaces shows the batch.
@@ -282,7 +257,7 @@ static void draw_pictured(const drawing *d, lobe_draw *draw) {
     draw->vertex_shader = "shading/surfaces/surfaces.vert";
     draw->depth_equal = true;
     draw->index_count = 3;
-    passes_shading_select_picture(d->selection, draw);
+    passes_selection_count(d->selection, MASK_DRAW, draw);
 }
 
 static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
@@ -291,7 +266,7 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     const device_instance *drawn = &context->scene->instances[batch->instance];
     const device_material *material = &context->scene->materials[drawn->material];
     const struct draw_constants constants = {.first_instance = batch->first,
-                                             .map_width = passes_shading_map_width(context, batch),
+                                             .map_width = passes_batch_map_width(context, batch),
                                              .number = 1 + (uint32_t)index};
     lobe_binding bindings[2 + MATERIAL_SHADING_BINDINGS];
     size_t binding_count = bind_draw(d, batch, bindings);
@@ -316,30 +291,9 @@ static void draw_batch(const drawing *d, const draw_list *draws, size_t index) {
     lobe_pass_draw(d->pass, &draw);
 }
 
-void passes_shading_draw_mask(lobe_pass *pass, const shading_selection *selection,
-                              const char *shader) {
-    const bool occluded = selection->occluder.version != 0;
-    const lobe_binding bindings[] = {
-        {.name = "counts", .resource = selection->counts},
-        {.name = "occluder", .resource = occluded ? selection->occluder : selection->counts}};
-    const uint32_t constants = occluded;
-    lobe_draw draw = {
-        .vertex_shader = "shading/background.vert",
-        .fragment_shader = shader,
-        .index_count = 3,
-        .depth_write = true,
-        .constants = &constants,
-        .constants_size = sizeof constants,
-        .bindings = bindings,
-        .binding_count = 2,
-    };
-    passes_shading_select_picture(selection, &draw);
-    lobe_pass_draw(pass, &draw);
-}
-
 static void draw_background(const drawing *d, const shading_sample *sample, bool aov) {
     lobe_draw draw = {.depth_test = d->selection != NULL};
-    select_draw(d->selection, BACKGROUND_DRAW, &draw);
+    passes_selection_count(d->selection, BACKGROUND_DRAW, &draw);
     passes_background(d->pass, d->context, d->light->cube, sample, aov, &draw);
 }
 
@@ -383,7 +337,7 @@ static void draw_pass(shading *s, bool deferred, bool begun, lobe_resource frame
                        .deferred = deferred,
                        .pass = pass};
     if (s->selection && !deferred && !begun)
-        passes_shading_draw_mask(pass, s->selection, "shading/samples/sample_mask.frag");
+        passes_selection_mask(pass, s->selection, "shading/samples/sample_mask.frag");
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background && !begun)
         draw_background(&d, s->sample, d.aov);

@@ -1,6 +1,6 @@
 #include "passes/renderer/samples/picture_key.h"
 
-#include "shaders/interface/sample_choice.h"
+#include "shaders/interface/picture/sample_choice.h"
 
 static uint32_t tiles(uint32_t extent) {
     return (extent + KEY_TILE - 1) / KEY_TILE;

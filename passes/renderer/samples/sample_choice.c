@@ -5,7 +5,7 @@
 #include "passes/displacement/drawn_bounds.h"
 #include "passes/renderer/samples/picture_key.h"
 #include "passes/renderer/shading.h"
-#include "shaders/interface/sample_choice.h"
+#include "shaders/interface/picture/sample_choice.h"
 
 static lobe_resource declare_buffer(const filter_context *context, const char *name, size_t size) {
     return lobe_graph_buffer(context->graph,

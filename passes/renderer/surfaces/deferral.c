@@ -2,12 +2,14 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
-#include "passes/renderer/surfaces/surfaces.h"
-#include "shaders/interface/surfaces.h"
+#include "passes/upload/material_maps.h"
+#include "shaders/interface/picture/surfaces.h"
 
 /// Choices of the knob.
 enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 
+/// Smaller pictures take less time than their pipelines.
+#define LEAST_PIXELS (128u * 128u)
 /// Of a picture of surfaces, unless the knob asks for it.
 #define MOST_BYTES (256ull << 20)
 /// Each of them is a draw over the whole picture.
@@ -15,9 +17,15 @@ enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 /// Where triangles are larger than that on average, shading with them wastes little.
 #define LARGEST_TRIANGLE 100.0 ///< pixels
 
+bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch) {
+    const device_material *material =
+        &context->scene->materials[context->scene->instances[batch->instance].material];
+    return !material->masked && passes_second_coordinates(material) == 0;
+}
+
 static bool fits(const filter_context *context) {
     const uint64_t pixels = (uint64_t)context->view.width * context->view.height;
-    return pixels * SURFACES_LAYERS * 4 * sizeof(float) <= MOST_BYTES;
+    return pixels >= LEAST_PIXELS && pixels * SURFACES_LAYERS * 4 * sizeof(float) <= MOST_BYTES;
 }
 
 /// Displaced triangles have about the size that they are asked to have, and the device counts them.

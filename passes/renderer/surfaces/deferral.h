@@ -3,6 +3,10 @@
 
 #include "passes/renderer/draw_list.h"
 
+/// Whether a picture of surfaces holds a batch. It does not if a mask cuts holes into it, for that
+/// takes the filter's shader, or if maps use the second set of texture coordinates.
+bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch);
+
 /// Whether surfaces are shaded from a picture of them (surfaces.h), as the knob `shading` says:
 /// with `auto`, on CPUs where that is likely to take less time.
 bool passes_defers_shading(const filter_context *context, const draw_list *draws);

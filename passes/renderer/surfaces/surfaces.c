@@ -5,9 +5,8 @@
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/renderer/surfaces/deferral.h"
-#include "passes/upload/material_maps.h"
+#include "shaders/interface/picture/surfaces.h"
 #include "shaders/interface/specialisation.h"
-#include "shaders/interface/surfaces.h"
 
 /// What the passes share.
 typedef struct surfaces_drawing {
@@ -17,16 +16,6 @@ typedef struct surfaces_drawing {
     const shading_selection *selection; ///< NULL: all pixels
     bool plane, colours;                ///< the picture has these layers
 } surfaces_drawing;
-
-static const device_material *material_of(const filter_context *context,
-                                          const instance_batch *batch) {
-    return &context->scene->materials[context->scene->instances[batch->instance].material];
-}
-
-bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch) {
-    const device_material *material = material_of(context, batch);
-    return !material->masked && passes_second_coordinates(material) == 0;
-}
 
 seen_surfaces passes_surfaces_absent(const filter_context *context) {
     return (seen_surfaces){.layers =
@@ -43,7 +32,7 @@ static bool has_colour(const filter_context *context, const instance_batch *batc
 
 /// Whether shading needs to know how the triangle lies that is seen.
 static bool needs_plane(const filter_context *context, const instance_batch *batch) {
-    return batch->displaced.vertices.version > 0 || passes_shading_map_width(context, batch) > 0;
+    return batch->displaced.vertices.version > 0 || passes_batch_map_width(context, batch) > 0;
 }
 
 static void find_layers(surfaces_drawing *d, bool shadows) {
@@ -99,7 +88,7 @@ static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t inde
     const instance_batch *batch = &d->draws->batches[index];
     const struct draw_constants constants = {
         .first_instance = batch->first,
-        .map_width = passes_shading_map_width(context, batch),
+        .map_width = passes_batch_map_width(context, batch),
         .number = 1 + index,
     };
     const lobe_binding bindings[] = {
@@ -125,7 +114,7 @@ static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t inde
         .binding_count = sizeof bindings / sizeof *bindings,
     };
     passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
-    passes_shading_select_batch(d->selection, index, &draw);
+    passes_selection_count(d->selection, FIRST_INSTANCE_DRAW + index, &draw);
     lobe_pass_draw(pass, &draw);
 }
 
@@ -138,7 +127,7 @@ static lobe_resource draw_layers(const surfaces_drawing *d, shading_targets *tar
         pass, &(lobe_attachment){.resource = targets->depth,
                                  .load = targets->keep_depth ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
     if (d->selection)
-        passes_shading_draw_mask(pass, d->selection, "shading/surfaces/surface_mask.frag");
+        passes_selection_mask(pass, d->selection, "shading/surfaces/surface_mask.frag");
     for (uint32_t i = 0; i < d->draws->batch_count; i++)
         if (passes_surfaces_hold(d->context, &d->draws->batches[i]))
             draw_batch(d, pass, i);

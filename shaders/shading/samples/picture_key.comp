@@ -6,7 +6,7 @@
 // light, as they would the geometric mean (Reinhard et al. 2002, Photographic Tone Reproduction for
 // Digital Images, section 2). In a fixed order, so that pictures do not depend on chance.
 
-#include "interface/sample_choice.h"
+#include "interface/picture/sample_choice.h"
 
 layout(local_size_x = KEY_GROUP, local_size_y = KEY_GROUP) in;
 

@@ -4,7 +4,7 @@
 // Adds one sample to the sum of each pixel in the list, in float32. Alpha is above 0 where a sample
 // hit something; in the sum it becomes the number of samples that did.
 
-#include "interface/sample_choice.h"
+#include "interface/picture/sample_choice.h"
 
 layout(local_size_x = 64) in;
 

@@ -7,7 +7,7 @@
 // is the contrast with the neighbours, in units of the picture's key: an error far below the key is
 // neither seen nor counts in a mean of squares.
 
-#include "interface/sample_choice.h"
+#include "interface/picture/sample_choice.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

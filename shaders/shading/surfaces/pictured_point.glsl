@@ -3,7 +3,7 @@
 
 // What of a mesh is seen at a pixel, read from the picture of surfaces.
 
-#include "interface/surfaces.h"
+#include "interface/picture/surfaces.h"
 #include "shading/surfaces/fragment.glsl"
 
 layout(set = 0, binding = 55) uniform sampler2DArray surfaces;

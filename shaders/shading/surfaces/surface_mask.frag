@@ -4,7 +4,7 @@
 // In a picture of surfaces, hides the pixels that another sample leaves alone. What was drawn
 // before hides the background.
 
-#include "interface/surfaces.h"
+#include "interface/picture/surfaces.h"
 #include "shading/samples/sample_mask.glsl"
 
 layout(location = SURFACES_POSITION) out vec4 position_out;

@@ -4,7 +4,7 @@
 // Turns the numbers of batches into depths, so that shading one of them passes over the others'
 // pixels.
 
-#include "interface/surfaces.h"
+#include "interface/picture/surfaces.h"
 
 layout(set = 0, binding = 0) uniform sampler2DArray surfaces;
 

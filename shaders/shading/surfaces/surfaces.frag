@@ -8,7 +8,7 @@
 #include "interface/instance.h"
 #include "interface/knobs.h"
 #include "interface/specialisation.h"
-#include "interface/surfaces.h"
+#include "interface/picture/surfaces.h"
 
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_CURVATURE) const bool CURVATURE = false;

@@ -5,7 +5,7 @@
 // of surfaces, so that it needs nothing of what shading.vert gives it.
 
 #include "interface/instance.h"
-#include "interface/surfaces.h"
+#include "interface/picture/surfaces.h"
 
 layout(push_constant) uniform draw_block { draw_constants draw; };
 

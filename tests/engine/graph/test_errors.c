@@ -605,7 +605,7 @@ static void attachment_slots(void **state) {
         lobe_attachment second = {.resource =
                                       attachment(fixture, "second", LOBE_FORMAT_R8_UNORM, 8, 1)};
         if (i == 0)
-            lobe_pass_colour(pass, 4, &first);
+            lobe_pass_colour(pass, 8, &first);
         if (i == 1) {
             lobe_pass_colour(pass, 0, &first);
             lobe_pass_colour(pass, 0, &second);

@@ -190,6 +190,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     environment_state state = {0};
     const environment_work environment = {.state = &state};
     filter_context context = {.graph = f->graph,
+                              .device = lobe_device_describe(f->device),
                               .settings = &settings,
                               .filter = filter,
                               .scene = uploaded,

@@ -188,7 +188,7 @@ static void pictures_under_a_sky_are_the_same(void **state) {
 // ---------------------------------------------------------------------------------------------
 // The choice
 
-static size_t pictures_by_default(fixture *f, const char *filter, bool sphere) {
+static size_t pictures_by_default(fixture *f, const char *filter, bool sphere, uint32_t extent) {
     lobe_scene *scene = scene_begin();
     const lobe_material material = bumpy(scene, 2);
     if (sphere)
@@ -199,7 +199,8 @@ static size_t pictures_by_default(fixture *f, const char *filter, bool sphere) {
     scene_look_down(scene, 2);
     scene_end(scene);
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    const picture_request request = {.filter = filter, .width = SIZE, .height = SIZE, .samples = 1};
+    const picture_request request = {
+        .filter = filter, .width = extent, .height = extent, .samples = 1};
     lobe_frame frame = draw_silently(f, scene->name, &request);
     const size_t count = pictures_of_surfaces(f);
     lobe_frame_free(&frame);
@@ -212,10 +213,11 @@ static size_t pictures_by_default(fixture *f, const char *filter, bool sphere) {
 static void shading_is_deferred_where_that_is_faster(void **state) {
     fixture *f = *state;
     const bool cpu = lobe_device_describe(f->device)->type == LOBE_DEVICE_CPU;
-    assert_int_equal(pictures_by_default(f, "moments", true), cpu);
-    assert_int_equal(pictures_by_default(f, "moments", false), 0);
-    assert_int_equal(pictures_by_default(f, "direct", true), 0);
-    assert_int_equal(pictures_by_default(f, "reference", true), 0);
+    assert_int_equal(pictures_by_default(f, "moments", true, 128), cpu);
+    assert_int_equal(pictures_by_default(f, "moments", false, 128), 0);
+    assert_int_equal(pictures_by_default(f, "direct", true, 128), 0);
+    assert_int_equal(pictures_by_default(f, "reference", true, 128), 0);
+    assert_int_equal(pictures_by_default(f, "moments", true, 64), 0);
 }
 
 int main(void) {

@@ -1,5 +1,5 @@
-#ifndef INTERFACE_SURFACES_H
-#define INTERFACE_SURFACES_H
+#ifndef INTERFACE_PICTURE_SURFACES_H
+#define INTERFACE_PICTURE_SURFACES_H
 
 // Layers of the picture of the surfaces that are seen (shading/surfaces/), four numbers a pixel.
 #define SURFACES_POSITION    0 // in the world; `whose`, below
@@ -17,8 +17,8 @@
 #define SURFACES_PLANE_LAYERS 7
 
 // `whose` is the number of the batch, times 4, plus these. Numbers count from 1; 0: nobody's.
-#define SURFACES_FRONT 1 // the front of a triangle
-#define SURFACES_LEFT  2 // the frame of the tangent is left-handed
+#define SURFACES_FRONT  1      // the front of a triangle
+#define SURFACES_LEFT   2      // the frame of the tangent is left-handed
 #define SURFACES_HIDDEN (-1.0) // in place of all that: not to be drawn
 
 // Numbers of batches as depths, which are exact.

@@ -1,7 +1,7 @@
-#ifndef INTERFACE_SAMPLE_CHOICE_H
-#define INTERFACE_SAMPLE_CHOICE_H
+#ifndef INTERFACE_PICTURE_SAMPLE_CHOICE_H
+#define INTERFACE_PICTURE_SAMPLE_CHOICE_H
 
-#include "types.h"
+#include "../types.h"
 
 // What shading/samples/picture_key.comp sums over a tile, of KEY_TILE pixels a side.
 #define KEY_TILE  64
