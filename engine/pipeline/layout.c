@@ -85,6 +85,31 @@ static void merge_push_constants(const engine_shader *const *shaders, size_t cou
 // ---------------------------------------------------------------------------------------------
 // Vulkan's layouts
 
+static uint32_t count_type(const engine_pipeline *pipeline, VkDescriptorType type,
+                           VkShaderStageFlags stage) {
+    uint32_t count = 0;
+    for (size_t i = 0; i < pipeline->binding_count; i++)
+        if (pipeline->bindings[i].type == type && pipeline->bindings[i].stages & stage)
+            count += pipeline->bindings[i].count;
+    return count;
+}
+
+/// Drivers need not report it themselves: lavapipe would read other textures.
+static lobe_result check_samplers(lobe_device *device, const engine_pipeline *pipeline) {
+    static const VkShaderStageFlags stages[] = {
+        VK_SHADER_STAGE_VERTEX_BIT, VK_SHADER_STAGE_FRAGMENT_BIT, VK_SHADER_STAGE_COMPUTE_BIT};
+    const uint32_t most = device->limits.maxPerStageDescriptorSamplers;
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
+        const uint32_t count =
+            count_type(pipeline, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stages[i]);
+        if (count > most)
+            return lobe_host_fail(&device->host, LOBE_ERROR_LIMIT,
+                                  "pipeline '%s': a stage has %u samplers, the device allows %u",
+                                  pipeline->name, count, most);
+    }
+    return LOBE_OK;
+}
+
 static lobe_result create_set_layout(lobe_device *device, engine_pipeline *pipeline) {
     VkDescriptorSetLayoutBinding *bindings =
         lobe_allocate(device->host.allocator, pipeline->binding_count + 1, sizeof *bindings);
@@ -139,6 +164,8 @@ lobe_result engine_pipeline_layout_create(lobe_device *device, const engine_shad
                                           size_t count, engine_pipeline *pipeline) {
     merge_push_constants(shaders, count, pipeline);
     lobe_result result = merge_bindings(&device->host, shaders, count, pipeline);
+    if (result == LOBE_OK)
+        result = check_samplers(device, pipeline);
     if (result == LOBE_OK)
         result = create_set_layout(device, pipeline);
     if (result == LOBE_OK)

@@ -219,16 +219,33 @@ static lobe_result reflect_bindings_of(const reflection *reflection, spvc_resour
     return result;
 }
 
+static lobe_result refuse_resource(const reflection *reflection,
+                                   const spvc_reflected_resource *resource, const char *kind) {
+    return lobe_host_fail(reflection->host, LOBE_ERROR_SHADER,
+                          "shader '%s': '%s' is a %s, which lobe does not use",
+                          reflection->shader->name, resource->name, kind);
+}
+
 static lobe_result refuse(const reflection *reflection, spvc_resources all, spvc_resource_type type,
                           const char *kind) {
     const spvc_reflected_resource *found = NULL;
     size_t count = 0;
     spvc_resources_get_resource_list_for_type(all, type, &found, &count);
-    if (count == 0)
-        return LOBE_OK;
-    return lobe_host_fail(reflection->host, LOBE_ERROR_SHADER,
-                          "shader '%s': '%s' is a %s, which lobe does not use",
-                          reflection->shader->name, found[0].name, kind);
+    return count == 0 ? LOBE_OK : refuse_resource(reflection, &found[0], kind);
+}
+
+/// Reflection counts them as images without a sampler.
+static lobe_result refuse_texel_buffers(const reflection *reflection, spvc_resources all) {
+    const spvc_reflected_resource *found = NULL;
+    size_t count = 0;
+    spvc_resources_get_resource_list_for_type(all, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, &found,
+                                              &count);
+    for (size_t i = 0; i < count; i++) {
+        spvc_type type = spvc_compiler_get_type_handle(reflection->compiler, found[i].type_id);
+        if (spvc_type_get_image_dimension(type) == SpvDimBuffer)
+            return refuse_resource(reflection, &found[i], "texel buffer");
+    }
+    return LOBE_OK;
 }
 
 static int order_by_binding(const void *first, const void *second) {
@@ -246,10 +263,10 @@ static lobe_result reflect_bindings(const reflection *reflection, spvc_resources
         {SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER},
         {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
         {SPVC_RESOURCE_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+        {SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE},
         {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE},
     };
-    lobe_result result = refuse(reflection, all, SPVC_RESOURCE_TYPE_SEPARATE_IMAGE,
-                                "separate image or texel buffer");
+    lobe_result result = refuse_texel_buffers(reflection, all);
     if (result == LOBE_OK)
         result = refuse(reflection, all, SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, "separate sampler");
     for (size_t i = 0; result == LOBE_OK && i < sizeof kinds / sizeof *kinds; i++)

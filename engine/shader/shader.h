@@ -14,7 +14,7 @@ typedef struct engine_shader_binding {
     const char *name; ///< of the variable; for blocks, of the block
     uint32_t binding;
     uint32_t count; ///< array elements; 1 if it is not an array
-    /// UNIFORM_BUFFER, STORAGE_BUFFER, COMBINED_IMAGE_SAMPLER or STORAGE_IMAGE.
+    /// UNIFORM_BUFFER, STORAGE_BUFFER, COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE or STORAGE_IMAGE.
     VkDescriptorType type;
     VkShaderStageFlags stages;
     VkImageViewType view; ///< images: 2D, 2D_ARRAY, CUBE, CUBE_ARRAY or 3D

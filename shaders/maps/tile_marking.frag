@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 
 // Marks the tiles of filtered maps that a pixel reads: of both levels that its probes interpolate
 // between, the rectangle of texels from the first probe to the last. Nothing that a device may read

@@ -10,7 +10,7 @@
 #include "lib/map/coordinate_frame.glsl"
 #include "lib/map/slope_stretch.glsl"
 
-// The pixel's surface comes from the picture of surfaces, not from a triangle that is being mesh.
+// The pixel's surface comes from the picture of surfaces, not from a triangle that is drawn.
 layout(constant_id = SPECIALISE_DEFERRED) const bool DEFERRED = false;
 layout(constant_id = SPECIALISE_MIRRORED) const bool MIRRORED = false;
 layout(constant_id = SPECIALISE_VIEW) const uint VIEW = VIEW_RADIANCE;

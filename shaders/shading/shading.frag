@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
 #pragma variants ENVIRONMENT AOV
 
 // Shades a pixel under punctual lights from the appearance that the filter fetches. The build makes

@@ -141,19 +141,19 @@ static uint64_t stages_of(const binding_site *site) {
     }
 }
 
-static uint64_t access_of(const engine_shader_binding *variable, engine_access_kind kind) {
-    if (variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)
-        return VK_ACCESS_2_UNIFORM_READ_BIT;
-    if (variable->type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
-        return VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
-    uint64_t access = kind != ENGINE_ACCESS_READ ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : 0;
-    return access | (variable->reads ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT : 0);
-}
-
 static engine_layout layout_of(const engine_shader_binding *variable) {
     if (is_block(variable))
         return ENGINE_LAYOUT_UNDEFINED;
     return is_storage(variable) ? ENGINE_LAYOUT_GENERAL : ENGINE_LAYOUT_SAMPLED;
+}
+
+static uint64_t access_of(const engine_shader_binding *variable, engine_access_kind kind) {
+    if (variable->type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)
+        return VK_ACCESS_2_UNIFORM_READ_BIT;
+    if (layout_of(variable) == ENGINE_LAYOUT_SAMPLED)
+        return VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    uint64_t access = kind != ENGINE_ACCESS_READ ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : 0;
+    return access | (variable->reads ? VK_ACCESS_2_SHADER_STORAGE_READ_BIT : 0);
 }
 
 static VkFlags usage_of(const engine_shader_binding *variable) {

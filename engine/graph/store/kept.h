@@ -92,7 +92,7 @@ typedef struct engine_graph_flight {
     engine_graph_transients transients; ///< the frame's, if the one after it needed others
     engine_graph_view *views;           ///< of host images that came without a view
     VkDescriptorPool descriptors;
-    uint32_t descriptor_capacity[5]; ///< sets, then descriptors by type
+    uint32_t descriptor_capacity[6]; ///< sets, then descriptors by type
     VkDescriptorSet *sets;           ///< from the pool, in the order of the commands
     uint32_t set_capacity;
     engine_stamp set_plan; ///< digest of their pipelines; NONE: there are no sets

@@ -212,7 +212,8 @@ typedef enum lobe_pass_kind {
 LOBE_API lobe_pass *lobe_graph_add_pass(lobe_graph *graph, lobe_pass_kind kind, const char *name);
 
 /// A resource bound to a variable of the pass's shaders, by the variable's (or block's) name.
-/// Reflection tells which kind it is: uniform or storage block, sampled or storage image.
+/// Reflection tells which kind it is: uniform or storage block, sampled image, with or without a
+/// sampler, or storage image.
 typedef struct lobe_binding {
     const char *name;
     lobe_resource resource;

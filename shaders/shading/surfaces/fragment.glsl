@@ -1,7 +1,7 @@
 #ifndef FRAGMENT_GLSL
 #define FRAGMENT_GLSL
 
-// What a mesh gives each of its pixels, interpolated over the triangle that is mesh. What includes
+// What a mesh gives each of its pixels, interpolated over the triangle that is drawn. What includes
 // this file has the blocks `frame`, `draw` and `knobs`, and the constants.
 
 #include "shading/curvature.glsl"

@@ -6,7 +6,8 @@
 #include "interface/picture/surfaces.h"
 #include "shading/surfaces/fragment.glsl"
 
-layout(set = 0, binding = 55) uniform sampler2DArray surfaces;
+// Without a sampler: some shaders have as many as lavapipe allows, 32.
+layout(set = 0, binding = 55) uniform texture2DArray surfaces;
 
 vec4 layer_of_surfaces(int layer) {
     return texelFetch(surfaces, ivec3(gl_FragCoord.xy, layer), 0);

@@ -247,6 +247,22 @@ static void disagreeing_stages_are_refused(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Samplers
 
+/// The fragment shader has one.
+static void more_samplers_than_a_stage_may_have_are_refused(void **state) {
+    (void)state;
+    engine_raster_parameters parameters = triangle();
+    parameters.cull = LOBE_CULL_FRONT; // a pipeline of its own
+    const engine_pipeline *pipeline = NULL;
+    const uint32_t most = device->limits.maxPerStageDescriptorSamplers;
+    device->limits.maxPerStageDescriptorSamplers = 0;
+    assert_int_equal(engine_pipeline_raster(device, &parameters, &pipeline), LOBE_ERROR_LIMIT);
+    device->limits.maxPerStageDescriptorSamplers = most;
+    assert_null(pipeline);
+    assert_int_equal(recorder.errors, 1);
+    assert_non_null(strstr(recorder.last_error, "1 samplers"));
+    assert_int_equal(engine_pipeline_raster(device, &parameters, &pipeline), LOBE_OK);
+}
+
 static void samplers_are_shared(void **state) {
     (void)state;
     VkSampler first, second, third, most, above;
@@ -373,6 +389,7 @@ int main(void) {
         WITH_DEVICE(each_state_makes_its_own_pipeline),
         WITH_DEVICE(depth_alone_needs_no_fragment_shader),
         WITH_DEVICE(disagreeing_stages_are_refused),
+        WITH_DEVICE(more_samplers_than_a_stage_may_have_are_refused),
         WITH_DEVICE(samplers_are_shared),
         WITH_FOLDER(cache_file_is_written_and_read_again),
         WITH_FOLDER(damaged_cache_files_are_replaced),
