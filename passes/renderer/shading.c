@@ -336,14 +336,14 @@ static void draw_pass(shading *s, bool deferred, bool begun, lobe_resource frame
                        .aov = has_aov(targets),
                        .deferred = deferred,
                        .pass = pass};
-    if (s->selection && !deferred && !begun)
+    if (s->selection && !deferred && (!begun || s->surfaces.open))
         passes_selection_mask(pass, s->selection, "shading/samples/sample_mask.frag");
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background && !begun)
         draw_background(&d, s->sample, d.aov);
+    const bool all = !s->surfaces.present || (s->surfaces.open && !deferred);
     for (size_t i = 0; i < s->draws->batch_count; i++)
-        if (!s->surfaces.present ||
-            passes_surfaces_hold(context, &s->draws->batches[i]) == deferred)
+        if (all || passes_surfaces_hold(context, &s->draws->batches[i]) == deferred)
             draw_batch(&d, s->draws, i);
 }
 

@@ -1,5 +1,6 @@
 #include "passes/renderer/surfaces/deferral.h"
 
+#include "passes/context/fit_work.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/upload/material_maps.h"
@@ -28,29 +29,55 @@ static bool fits(const filter_context *context) {
     return pixels >= LEAST_PIXELS && pixels * SURFACES_LAYERS * 4 * sizeof(float) <= MOST_BYTES;
 }
 
-/// Displaced triangles have about the size that they are asked to have, and the device counts them.
-static bool has_small_triangles(const filter_context *context, const draw_list *draws) {
-    double triangles = 0;
-    for (uint32_t i = 0; i < draws->batch_count; i++) {
-        const instance_batch *batch = &draws->batches[i];
-        if (!passes_surfaces_hold(context, batch))
-            continue;
-        if (batch->displaced.vertices.version > 0)
+static bool is_displaced(const draw_list *draws) {
+    for (uint32_t i = 0; i < draws->batch_count; i++)
+        if (draws->batches[i].displaced.vertices.version > 0)
             return true;
-        triangles += passes_batch_index_count(context->scene, batch) / 3.0 * batch->count;
-    }
-    return triangles * LARGEST_TRIANGLE > (double)context->view.width * context->view.height;
+    return false;
+}
+
+/// Displaced triangles have about the size that they are asked to have, and the device counts them.
+/// Hidden instances count: those that appear must not change the choice, and with it the pipelines.
+static bool has_small_triangles(const filter_context *context, const draw_list *draws) {
+    const lobe_scene *scene = context->scene->scene;
+    double triangles = 0;
+    for (size_t i = 0; i < scene->instance_count; i++)
+        triangles += scene->meshes[scene->instances[i].mesh].index_count / 3.0;
+    return triangles * LARGEST_TRIANGLE > (double)context->view.width * context->view.height ||
+           is_displaced(draws);
+}
+
+static bool holds_any(const filter_context *context, const draw_list *draws) {
+    for (uint32_t i = 0; i < draws->batch_count; i++)
+        if (passes_surfaces_hold(context, &draws->batches[i]))
+            return true;
+    return false;
+}
+
+/// Whether what is drawn decides.
+static bool may_be_worth_it(const filter_context *context) {
+    return context->filter->shades_long && context->device->type == LOBE_DEVICE_CPU &&
+           fits(context);
+}
+
+bool passes_shading_is_open(const filter_context *context) {
+    return context->work && context->work->is_dry && may_be_worth_it(context) &&
+           passes_knob_choice(context, &passes_knob_shading) == AUTOMATIC;
 }
 
 static bool is_worth_it(const filter_context *context, const draw_list *draws) {
-    return context->filter->shades_long && context->device->type == LOBE_DEVICE_CPU &&
-           fits(context) && draws->batch_count <= MOST_BATCHES &&
+    return may_be_worth_it(context) && draws->batch_count <= MOST_BATCHES &&
            has_small_triangles(context, draws);
 }
 
-bool passes_defers_shading(const filter_context *context, const draw_list *draws) {
+static bool is_chosen(const filter_context *context, const draw_list *draws) {
     const uint32_t choice = passes_knob_choice(context, &passes_knob_shading);
-    if (draws->batch_count == 0 || context->device->maximum_colour_outputs < SURFACES_LAYERS)
-        return false;
-    return choice == AUTOMATIC ? is_worth_it(context, draws) : choice == DEFERRED;
+    if (choice == AUTOMATIC)
+        return passes_shading_is_open(context) || is_worth_it(context, draws);
+    return choice == DEFERRED;
+}
+
+bool passes_defers_shading(const filter_context *context, const draw_list *draws) {
+    return is_chosen(context, draws) && holds_any(context, draws) &&
+           context->device->maximum_colour_outputs >= SURFACES_LAYERS;
 }

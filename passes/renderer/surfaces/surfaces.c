@@ -162,7 +162,8 @@ seen_surfaces passes_surfaces(const filter_context *context, const draw_list *dr
     surfaces_drawing d = {
         .context = context, .draws = draws, .frame = frame, .selection = selection};
     find_layers(&d, shadows);
-    seen_surfaces surfaces = {.present = true, .holds_all = true};
+    const bool open = passes_shading_is_open(context);
+    seen_surfaces surfaces = {.present = true, .holds_all = !open, .open = open};
     for (uint32_t i = 0; i < draws->batch_count; i++)
         surfaces.holds_all &= passes_surfaces_hold(context, &draws->batches[i]);
     surfaces.layers = draw_layers(&d, targets);

@@ -13,9 +13,10 @@
 
 typedef struct seen_surfaces {
     bool present;
-    bool holds_all; ///< other batches are drawn by their triangles, afterwards
-    lobe_resource
-        layers; ///< RGBA32_FLOAT, shaders/interface/picture/surfaces.h; else one white texel
+    bool holds_all; ///< else others are drawn by their triangles, afterwards
+    bool open;      ///< all batches are drawn by their triangles, too (deferral.h)
+    /// RGBA32_FLOAT, see shaders/interface/picture/surfaces.h; one white texel if not present.
+    lobe_resource layers;
     lobe_resource numbers; ///< D32_FLOAT: the numbers of the batches that are seen
 } seen_surfaces;
 

@@ -139,6 +139,46 @@ static void check_way(fixture *f, const way *by, const lobe_vulkan_image *image)
     lobe_scene_destroy(&scene);
 }
 
+/// Squares with one material; on CPUs, many of them are shaded afterwards.
+static lobe_scene *squares(uint32_t count) {
+    lobe_scene *scene = scene_begin();
+    const lobe_material material = bumpy_material(scene, 1);
+    scene_add_square(scene, &material, 2, NULL);
+    for (uint32_t i = 1; i < count; i++)
+        assert_int_equal(scenes_add_instance(scene, 0, 0, NULL, NULL), LOBE_OK);
+    add_light(scene);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
+/// Whichever way their surfaces are shaded (knob shading).
+static void prepared_materials_serve_larger_scenes(void **state) {
+    static const char *const settings[][3] = {{"bins=2"}, {"bins=2", "samples=2"}};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        fixture own = start(*state);
+        lobe_scene *few = squares(1), *many = squares(128);
+        lobe_renderer *renderer = renderer_of(&own, few);
+        lobe_render_parameters wanted = parameters("moments");
+        const lobe_settings chosen = settings_of(wanted.filter, settings[i]);
+        wanted.settings = &chosen;
+        wanted.width = wanted.height = 128;
+        assert_int_equal(lobe_renderer_prepare(renderer, &wanted), LOBE_OK);
+        faults.pipelines = 0;
+        picture(&own, renderer, &wanted);
+        assert_int_equal(count_passes(lobe_renderer_graph(renderer), "surfaces", LOBE_PASS_RUN), 0);
+        assert_int_equal(lobe_renderer_set_scene(renderer, many), LOBE_OK);
+        picture(&own, renderer, &wanted);
+        if (lobe_device_describe(own.device)->type == LOBE_DEVICE_CPU)
+            assert_true(count_passes(lobe_renderer_graph(renderer), "surfaces", LOBE_PASS_RUN) > 0);
+        assert_int_equal(faults.pipelines, 0);
+        lobe_renderer_destroy(&renderer);
+        lobe_scene_destroy(&few);
+        lobe_scene_destroy(&many);
+        stop(*state, &own);
+    }
+}
+
 static void prepared_frames_make_no_pipelines(void **state) {
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
         fixture own = start(*state);
@@ -597,6 +637,7 @@ static void mistakes_are_those_of_frames(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(prepared_frames_make_no_pipelines),
+        cmocka_unit_test(prepared_materials_serve_larger_scenes),
         cmocka_unit_test(given_images_are_prepared_for),
         cmocka_unit_test(preparing_changes_no_picture),
         cmocka_unit_test(progress_is_told_and_may_stop),
