@@ -166,7 +166,7 @@ static void a_missing_knob_has_no_value(void **state) {
         lobe_result result =
             lobe_settings_get(filter, &settings, names[i], &value, &log_to_messages);
         assert_failure(&messages, result, LOBE_ERROR_NOT_FOUND,
-                       "curvature, normal_mapping, view, samples, base");
+                       "curvature, normal_mapping, view, samples, shading, base");
         assert_true(value == -7);
         assert_int_equal(lobe_settings_get(filter, &settings, names[i], &value, NULL),
                          LOBE_ERROR_NOT_FOUND);
