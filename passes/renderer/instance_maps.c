@@ -48,16 +48,12 @@ void passes_fits_save(rendering *r) {
     r->renderer->fits_are_read_back = r->fits.reads_back = false;
 }
 
-static bool is_cpu(const lobe_device *device) {
-    return lobe_device_describe(device)->type == LOBE_DEVICE_CPU;
-}
-
 void passes_instance_maps_build(rendering *r, lobe_frame *frame) {
     const lobe_scene *scene = r->context.scene->scene;
     passes_given_content_take(&r->context, r->renderer->give_content, r->renderer->giver);
     passes_deform(&r->context);
     passes_displacement(r->renderer->displacement, &r->context, r->renderer->scene,
-                        is_cpu(r->renderer->device));
+                        r->context.device->type == LOBE_DEVICE_CPU);
     passes_tile_marking(r);
     memset(r->images.resources, 0,
            passes_filtered_images_count(scene) * sizeof *r->images.resources);

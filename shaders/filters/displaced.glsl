@@ -717,8 +717,8 @@ float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen, 
 }
 
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
-// smooth facets where they mirror light from, and rough ones as diffuse ones are. Of an environment
-// the latter half as much: its lobes end at horizons as well.
+// smooth facets where they mirror light from, and rough ones as diffuse ones are; under an
+// environment, whose lobes end at horizons as well, half as much.
 struct mirroring_bins {
     facet_group groups[FACET_BINS];
     float depths[FACET_BINS]; // see find_depths()

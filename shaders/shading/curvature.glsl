@@ -1,6 +1,8 @@
 #ifndef CURVATURE_GLSL
 #define CURVATURE_GLSL
 
+// What includes this file has the block `knobs`.
+
 // A larger variance means that the pixel is at a silhouette, where derivatives are meaningless.
 const float CURVATURE_MAXIMUM = 0.1;
 

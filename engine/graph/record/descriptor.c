@@ -12,6 +12,9 @@ static const VkDescriptorType types[] = {
     VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
 };
 #define TYPE_COUNT (sizeof types / sizeof *types)
+_Static_assert(sizeof((engine_graph_flight *)0)->descriptor_capacity ==
+                   (1 + TYPE_COUNT) * sizeof(uint32_t),
+               "a capacity for the sets and for each type");
 
 // ---------------------------------------------------------------------------------------------
 // Which commands need a set

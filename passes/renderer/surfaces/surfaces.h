@@ -1,5 +1,5 @@
-#ifndef PASSES_RENDERER_SURFACES_H
-#define PASSES_RENDERER_SURFACES_H
+#ifndef PASSES_RENDERER_SURFACES_SURFACES_H
+#define PASSES_RENDERER_SURFACES_SURFACES_H
 
 #include "passes/renderer/samples/selection.h"
 #include "passes/renderer/surfaces/deferral.h"
