@@ -97,7 +97,7 @@ void passes_filter_warn(const lobe_filter *filter, const device_scene *scene,
 // Appearances
 
 size_t passes_filtered_images_count(const lobe_scene *scene) {
-    return scene->image_count + 4 * scene->material_count;
+    return scene->image_count + 5 * scene->material_count;
 }
 
 filtered_images passes_filtered_images_of(lobe_resource *resources, const lobe_scene *scene) {
@@ -106,7 +106,8 @@ filtered_images passes_filtered_images_of(lobe_resource *resources, const lobe_s
                              .masked = of_materials,
                              .metal = of_materials + scene->material_count,
                              .normals = of_materials + 2 * scene->material_count,
-                             .correlations = of_materials + 3 * scene->material_count};
+                             .correlations = of_materials + 3 * scene->material_count,
+                             .widths = of_materials + 4 * scene->material_count};
 }
 
 void passes_appearance_bind(filtered_appearance *appearance, const char *name,

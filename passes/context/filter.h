@@ -9,7 +9,7 @@
 #include "passes/context/knob.h"
 #include "passes/upload/device_scene.h"
 
-#define FILTER_MAXIMUM_BINDINGS        19
+#define FILTER_MAXIMUM_BINDINGS        20
 #define FILTER_MAXIMUM_SPECIALISATIONS 40
 
 /// What a filter built for one instance: inputs of its draw in the shading pass.
@@ -29,6 +29,7 @@ typedef struct filtered_images {
     lobe_resource *masked;    ///< colours of what a mask keeps: one for each material of the scene
     lobe_resource *metal;     ///< where it is metal (passes/maps/colours/metal_means.h): the same
     lobe_resource *normals;   ///< of its colours (passes/maps/colours/colour_normals.h): the same
+    lobe_resource *widths;    ///< of its lobes (passes/maps/colours/width_means.h): the same
     /// Whether colours follow these (passes/maps/colours/colour_correlation.h): the same.
     lobe_resource *correlations;
     uint64_t bytes;

@@ -62,7 +62,8 @@ struct lobe_grid_constants passes_lobe_grid_constants(const filter_context *cont
 
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
     // Without those that no map of lobes reads.
-    const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION;
+    const uint32_t apart = passes_widths_lie_apart(material) ? 1u << MAP_WIDTH : 0;
+    const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION | apart;
     passes_lobes_specialise(material, material->map_bits & ~unread, list);
     passes_specialise(list, SPECIALISE_INTERPOLATED,
                       passes_device_map_is_interpolated(material, MAP_NORMAL) ||

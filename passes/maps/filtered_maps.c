@@ -9,6 +9,7 @@
 #include "passes/maps/colours/colour_normals.h"
 #include "passes/maps/colours/mask_coverage.h"
 #include "passes/maps/colours/metal_means.h"
+#include "passes/maps/colours/width_means.h"
 #include "passes/maps/level_reduction.h"
 #include "passes/maps/magnification.h"
 #include "passes/maps/seen_tiles.h"
@@ -148,8 +149,30 @@ static void bind_metal_means(const filter_context *context, uint32_t index,
         appearance, "metal_map",
         kind == METAL_MEANS_NONE ? lobe_graph_import_texture(context->graph, context->scene->white)
                                  : metal_means(context, index),
-        passes_filtered_map_sampler(context, material, passes_lobe_grid(material).map));
+        passes_filtered_map_sampler(context, material, passes_metal_means_lie_as(material)));
     passes_appearance_specialise(appearance, SPECIALISE_METAL_MEANS, kind);
+}
+
+/// The widths of lobes that lie apart from the normals; once for all instances.
+static lobe_resource width_means(const filter_context *context, uint32_t index) {
+    lobe_resource *widths = &context->images->widths[index];
+    if (widths->version != 0)
+        return *widths;
+    reduced_map map = passes_width_means(context, index);
+    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT);
+    *widths = map.resource;
+    return map.resource;
+}
+
+static void bind_width_means(const filter_context *context, uint32_t index,
+                             filtered_appearance *appearance) {
+    const device_material *material = &context->scene->materials[index];
+    const bool apart = passes_widths_lie_apart(material);
+    passes_appearance_bind(appearance, "width_means_map",
+                           apart ? width_means(context, index)
+                                 : lobe_graph_import_texture(context->graph, context->scene->white),
+                           passes_filtered_map_sampler(context, material, MAP_WIDTH));
+    passes_appearance_specialise(appearance, SPECIALISE_WIDTHS_APART, apart);
 }
 
 /// How colours go with normals; once for all instances.
@@ -284,5 +307,6 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
     bind_mask_layers(context, index, (filtered & 1u << MAP_BASE_COLOUR) != 0, appearance);
     bind_metal_means(context, index, appearance);
+    bind_width_means(context, index, appearance);
     bind_colour_normals(context, index, appearance);
 }

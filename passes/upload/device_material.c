@@ -42,6 +42,7 @@ static void fill_constants(const device_material *material, struct material_cons
     constants->normal_concentration = source->normal_concentration;
     constants->occlusion_strength = source->occlusion_strength;
     constants->largest_colour = largest_colour(source);
+    constants->width_factor = material->width_factor;
     if (source->model == LOBE_MATERIAL_HALF_VECTOR_LOBES)
         fill_lobes(source, constants);
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
@@ -113,6 +114,26 @@ static void find_metal(const device_scene *scene, device_material *material) {
     material->metallic_varies = metal->varies;
     if (!metal->varies)
         material->metallic *= metal->value;
+}
+
+/// Finds a factor of roughness that stands for a width map which lies apart: bins of lobes are
+/// fitted to lobes as wide as most are. A few thousand of its texels tell enough.
+static void find_width_factor(device_material *material) {
+    enum { SIDE = 64 };
+    const device_map *map = &material->maps[MAP_WIDTH];
+    double sum = 0;
+    material->width_factor = 1;
+    if (!map->readable || !passes_widths_may_lie_apart(material))
+        return;
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        float texel[4];
+        const uint32_t x = (2 * (i % SIDE) + 1) * map->width / (2 * SIDE);
+        const uint32_t y = (2 * (i / SIDE) + 1) * map->height / (2 * SIDE);
+        if (!passes_image_texel(map->texels, x, y, texel))
+            return;
+        sum += fmin(fmax((double)texel[1], 0), 1);
+    }
+    material->width_factor = (float)(sum / (SIDE * SIDE));
 }
 
 /// Makes the normals of the material's height map, and their texture.
@@ -331,6 +352,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);
+        find_width_factor(material);
         status = store_constants(scene->graph, material);
     }
     if (status == LOBE_OK) {

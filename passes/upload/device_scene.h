@@ -78,7 +78,9 @@ typedef struct device_material {
     /// drawn as if there were none (passes/upload/colours/mask_alpha.h).
     bool masked;
     bool metallic_varies; ///< the width map determines where the material is metal
-    float metallic;       ///< its metallic factor, times the map's where that is constant
+    /// Of lobes in maps that leave out a width map which lies apart: its mean. Else 1.
+    float width_factor;
+    float metallic; ///< its metallic factor, times the map's where that is constant
     /// Increases with each change of its lobes or the texels of its maps: not of its base colour,
     /// emission or occlusion alone. 0: not on the device.
     uint32_t version;

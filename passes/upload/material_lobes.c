@@ -130,9 +130,12 @@ uint32_t passes_material_lobes_read(const device_material *material, double x, d
     bool microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
     const lobe_grid grid = passes_lobe_grid(material);
     double u = x / grid.width, v = y / grid.height;
-    double normal[3], widths[4] = {1, 1, 1, 1};
+    const double factor = microfacet ? (double)material->width_factor : 1;
+    double normal[3], widths[4] = {factor, factor, factor, factor};
+    const bool has_widths =
+        material->maps[MAP_WIDTH].use != NULL && !passes_widths_lie_apart(material);
     if (!sample_normal(material, u, v, normal) ||
-        (material->maps[MAP_WIDTH].use && !sample_map(&material->maps[MAP_WIDTH], u, v, widths)))
+        (has_widths && !sample_map(&material->maps[MAP_WIDTH], u, v, widths)))
         return 0;
     return passes_material_lobes_of(material->material, normal, widths[microfacet ? 1 : 0], lobes);
 }

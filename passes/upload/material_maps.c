@@ -101,9 +101,37 @@ bool passes_device_map_is_interpolated(const device_material *material, uint32_t
     return map->use && !map->use->nearest && map->width * map->height > 1;
 }
 
+/// `sets`: bit MAP_...: the map is read by the second set.
+static bool share_coordinates(const device_material *material, uint32_t a, uint32_t b,
+                              uint32_t sets) {
+    const lobe_texture_use *first = material->maps[a].use, *second = material->maps[b].use;
+    return (sets >> a & 1) == (sets >> b & 1) &&
+           memcmp(first->transform, second->transform, sizeof first->transform) == 0;
+}
+
+static bool has_texels(const device_map *map) {
+    return map->use && map->width * map->height > 1;
+}
+
+static bool widths_lie_apart(const device_material *material, uint32_t second_coordinates) {
+    return material->material->model == LOBE_MATERIAL_MICROFACET &&
+           has_texels(&material->maps[MAP_NORMAL]) && has_texels(&material->maps[MAP_WIDTH]) &&
+           !share_coordinates(material, MAP_NORMAL, MAP_WIDTH, second_coordinates);
+}
+
+bool passes_widths_lie_apart(const device_material *material) {
+    return widths_lie_apart(material, passes_second_coordinates(material));
+}
+
+bool passes_widths_may_lie_apart(const device_material *material) {
+    return widths_lie_apart(material, material->second_coordinates);
+}
+
 lobe_grid passes_lobe_grid(const device_material *material) {
     const device_map *normal = &material->maps[MAP_NORMAL], *widths = &material->maps[MAP_WIDTH];
     const uint32_t map = normal->use ? MAP_NORMAL : MAP_WIDTH;
+    if (passes_widths_lie_apart(material))
+        widths = normal;
     return (lobe_grid){
         .map = map,
         .use = material->maps[map].use,
@@ -117,10 +145,7 @@ bool passes_lobe_grid_varies(const lobe_grid *grid) {
 }
 
 bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b) {
-    const lobe_texture_use *first = material->maps[a].use, *second = material->maps[b].use;
-    const uint32_t sets = passes_second_coordinates(material);
-    return (sets >> a & 1) == (sets >> b & 1) &&
-           memcmp(first->transform, second->transform, sizeof first->transform) == 0;
+    return share_coordinates(material, a, b, passes_second_coordinates(material));
 }
 
 bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32_t map) {

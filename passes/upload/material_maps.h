@@ -30,19 +30,25 @@ lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t
 /// Whether the material has the map, with more than one texel, and reads it interpolated.
 bool passes_device_map_is_interpolated(const device_material *material, uint32_t map);
 
-/// The grid of texels that a material's lobes come from: its normal map and its width map; the
-/// coarser one is read at the texels of the finer one.
+/// The grid of texels that a material's lobes come from: its normal map and its width map, unless
+/// that lies apart; the coarser one is read at the texels of the finer one.
 typedef struct lobe_grid {
     /// The map whose texture coordinates and wrapping the grid has: the normal map, or the width
     /// map of a material without one.
     uint32_t map;
     const lobe_texture_use *use; ///< of that map; NULL: the material has neither
-    uint32_t width, height;      ///< texels: the larger of both maps; 0: neither exists
+    uint32_t width, height;      ///< texels: the larger of these maps; 0: neither exists
 } lobe_grid;
 
 lobe_grid passes_lobe_grid(const device_material *material);
 /// Whether lobes can differ from texel to texel, so that there is something to filter.
 bool passes_lobe_grid_varies(const lobe_grid *grid);
+/// Whether microfacets have widths that vary over the surface otherwise than their normals do, by
+/// other texture coordinates. Maps of lobes then hold lobes of one width, and shading takes their
+/// own from another map (passes/maps/colours/width_means.h).
+bool passes_widths_lie_apart(const device_material *material);
+/// The same, if not all meshes have two equal sets of texture coordinates.
+bool passes_widths_may_lie_apart(const device_material *material);
 /// Whether two maps that a material has are laid out on the surface alike, whatever their numbers
 /// of texels: by one set of texture coordinates, or by two equal ones, with the same transform.
 bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b);

@@ -28,7 +28,7 @@ material_rows *passes_material_rows_create(const lobe_allocator *allocator,
     if (!rows)
         return NULL;
     rows->normals = image_of(material, MAP_NORMAL);
-    rows->widths = image_of(material, MAP_WIDTH);
+    rows->widths = passes_widths_lie_apart(material) ? NULL : image_of(material, MAP_WIDTH);
     rows->width = grid.width;
     rows->height = grid.height;
     rows->encoding = material->maps[MAP_NORMAL].normals;
@@ -40,7 +40,7 @@ material_rows *passes_material_rows_create(const lobe_allocator *allocator,
     rows->texels = rows->data + (size_t)4 * grid.width;
     for (uint32_t x = 0; x < grid.width; x++) {
         rows->normal[2][x] = 1;
-        rows->factor[x] = 1;
+        rows->factor[x] = material->width_factor;
     }
     return rows;
 }

@@ -42,7 +42,8 @@ layout(LOBE_DESCRIPTOR(38)) uniform sampler2DArray facet_map;
 // Whether the relief's facets mirror light.
 const bool FACETS = RELIEF && MODEL == MODEL_MICROFACET;
 // Widths of microfacets that are shaded.
-const uint WIDTHS = FACETS && BASE_LOBES != BASE_LOBES_ALIKE ? 2u : 1u;
+const bool WIDTHS_VARY = WIDTHS_APART || BASE_LOBES != BASE_LOBES_ALIKE;
+const uint WIDTHS = FACETS && WIDTHS_VARY ? 2u : 1u;
 // Whether pixels may see single facets. Displaced triangles are drawn where these are.
 const bool NEAR = RELIEF && MAGNIFIED && !DISPLACED;
 
@@ -852,7 +853,7 @@ void find_widths(appearance fetched, surface_point surface) {
     if (WIDTHS == 1u)
         return;
     two_widths found = find_two_widths(base_lobe_concentration(DISTRIBUTION, fetched.base.width),
-                                       fetch_alpha_moments(lobe_area(surface)));
+                                       fetch_alpha_moments(lobe_area(surface), surface));
     for (uint i = 0u; i < WIDTHS; ++i) {
         drawn.widths[i] = base_lobe_of_concentration(DISTRIBUTION,
                                                      2.0 / (found.alpha[i] * found.alpha[i]));

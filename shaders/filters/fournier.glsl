@@ -60,7 +60,8 @@ weighted_texel texel_around(map_area area, uint index) {
 phong_peak read_peak(surface_point surface, weighted_texel texel, uint index) {
     projected_lobe lobe =
         lobe_of_sums(textureLod(moment_map, vec3(texel.position, index), texel.level));
-    float variance = max(lobe.square / (1.0 + lobe.normal.z * lobe.normal.z), 1e-6) +
+    float variance = max(lobe.square / (1.0 + lobe.normal.z * lobe.normal.z) +
+                             projected_variance_lacking(), 1e-6) +
                      isotropic_variance(surface.curvature);
     return phong_peak(texel.weight * lobe.part, lobe.normal, max(1.0 / variance - 1.0, 0.0));
 }
@@ -73,6 +74,7 @@ void take_normal(inout appearance fetched, vec3 mean) {
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     result.area = lobe_area(surface);
+    draw_widths(surface);
     bool near = may_see_level_0(lobe_map());
     result.level = FILTERED_LOBES ? result.area.level : 0.0;
     level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);

@@ -57,7 +57,7 @@ vec3 base_covariance(slope_moments moments) {
 
 footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moments moments) {
     moments = fetch_moments(area, surface);
-    base_lobes microfacets = fetch_base_lobes(area, moments.base_variance);
+    base_lobes microfacets = fetch_base_lobes(area, moments.base_variance, surface);
     if (BASE_PLANE == BASE_PLANE_FACETS)
         moments.base_variance = microfacets.variance;
     vec3 base = base_covariance(moments);

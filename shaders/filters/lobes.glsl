@@ -54,6 +54,7 @@ struct appearance {
     float mixture_scale;    // factor of the lobes' weights
     float own_scale;        // the same for distributions of projected area one
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
+    float resultant_scale;  // of |r|: 1, unless widths lie apart
     float complement;       // 1 - |r| of the footprint's one lobe if it were about the normals
     float variance;         // of the macro-surface's normals, unless the mixture includes it
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
@@ -97,10 +98,10 @@ mat3 mixture_frame(surface_point surface) {
     return mat3(1.0);
 }
 
-// 1 - |r| of the base lobes where all have one width.
+// 1 - |r| of the base lobes in the map where all have one width.
 float uniform_complement() {
     float parameter = MODEL == MODEL_MICROFACET
-                          ? convolved(microfacet_parameter(DISTRIBUTION, material.roughness))
+                          ? parameter_of_factor(material.width_factor)
                           : half_vector_lobe_parameter(0, 1.0);
     return mean_resultant_complement(base_lobe_concentration(DISTRIBUTION, parameter));
 }
@@ -172,6 +173,8 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
                 : is_sector ? MIXTURE_LAYER_SECTORS + at.sector
                             : MIXTURE_LAYER_HALVES + 2 * at.sector + at.part - 1;
     vec4 moment = filtered_layer(mixture_map, fetched.area, layer);
+    if (WIDTHS_APART)
+        moment.xyz *= fetched.resultant_scale;
 
     float complement = resultant_complement(moment.xyz, moment.w);
     float refine = 0.0;
@@ -290,6 +293,10 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     vec4 mean = fetch_mean(fetched.area, coverage, weight);
     level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
     fetched.base_share = share_of_level_0(normals, fetched.level, coverage);
+    if (WIDTHS_APART) {
+        mean.w = fetch_width_means(surface).complement;
+        fetched.resultant_scale = (1.0 - mean.w) / max(1.0 - uniform_complement(), 1e-3);
+    }
     fetched.base_complement = mean.w;
     // A mixture over some of the texels represents all of them.
     fetched.mixture_scale = (1.0 - fetched.base_share) / weight;

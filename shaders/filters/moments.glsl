@@ -232,6 +232,7 @@ appearance fetch_appearance(surface_point surface) {
     vec4 last = FILTERED_LOBES ? read_last_layer(result.area) : vec4(0.0);
     result.mass_scale = last.w;
     result.filtered = footprint_material(surface, result.normal, result.area, last);
+    draw_widths(surface);
     if (FILTERED_LOBES) {
         result.level = result.area.level;
         level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);

@@ -55,7 +55,7 @@ slope_moments fetch_component(map_area area, surface_point surface, uint index, 
         height * height * range.z * range.z * covariance_of_moments(mean, spread.xyz * scale);
     moments.mean_cosine = 1.0;
     moments.base_variance =
-        max(spread.w * scale * binning.bins[0].shape.w, 1.0 / CONCENTRATION_MAXIMUM);
+        base_variance_of(spread.w * scale * binning.bins[0].shape.w, surface);
     stretch_moments(moments, surface);
     moments.covariance += surface.curvature;
     return moments;
@@ -82,9 +82,9 @@ footprint_lobe fetch_lobe(map_area area, surface_point surface, out slope_moment
     float scale = 1.0 / max(whole, 1e-6);
     base_variance *= scale;
     base_width *= scale;
-    result.microfacets = fetch_base_lobes(area, base_variance);
+    result.microfacets = fetch_base_lobes(area, base_variance, surface);
     float wider = 1.0;
-    if (BASE_LOBES != BASE_LOBES_ALIKE) {
+    if (base_lobes_vary()) {
         // Components know the mean variance of their base lobes alone.
         float between = log(base_variance / (base_width * base_width));
         result.microfacets.varies = max(result.microfacets.varies - between, 0.0);

@@ -31,7 +31,8 @@ struct appearance {
 // both axes.
 gaussian_lobe read_lobe(surface_point surface, map_area area, uint index) {
     projected_lobe lobe = lobe_of_sums(filtered_layer(moment_map, area, index));
-    float variance = max(PRINTED ? lobe.square : 0.5 * lobe.square, 1e-6);
+    float variance = max((PRINTED ? lobe.square : 0.5 * lobe.square) +
+                             projected_variance_lacking(), 1e-6);
     return gaussian_lobe(lobe.part, lobe.normal,
                          variance + isotropic_variance(surface.curvature));
 }
@@ -54,6 +55,7 @@ vec3 take_lobes(inout appearance fetched, surface_point surface, map_area area) 
 appearance fetch_appearance(surface_point surface) {
     appearance result;
     map_area area = lobe_area(surface);
+    draw_widths(surface);
     bool near = may_see_level_0(lobe_map());
     level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
     result.base_share = FILTERED_LOBES ? share_of_level_0(normals, area.level, 1.0) : 1.0;

@@ -22,6 +22,13 @@
 #define METAL_LAYER_METAL  0 // E[s c m], E[s m^2]; with METAL_MEANS_ALONE E[s m], E[s], 0, E[s m^2]
 #define METAL_LAYER_COLOUR 1 // E[c], E[m], or under a mask E[s m], E[s], 0, 0; not with ..._ALONE
 
+// Layers of the map of widths that lie apart from normals (maps/width_means.comp): with v, c, kappa
+// and alpha a texel's variance in the Lambert plane, 1 - |r|, concentration and alpha, and s how
+// much it mirrors,
+#define WIDTH_LAYER_LOBES       0 // E[s / sqrt(v)], E[s v], E[s c], E[s]
+#define WIDTH_LAYER_MICROFACETS 1 // E[s kappa], E[s alpha], E[s alpha^2], E[s]
+#define WIDTH_LAYERS            2
+
 // Layers of the map of how diffuse colours go with normals (maps/colour_normals.comp): with d the
 // diffuse colour and n the normal of a point, and s how much it counts (maps/base_maps.glsl),
 // layers 0 to 2 have E[s d_k n], E[s d_k] of a channel.
@@ -42,8 +49,8 @@ struct material_constants {
     float occlusion_strength;                      // of MAP_OCCLUSION, [0, 1]
     // At least 1: of the base colour, and of the lobes' colours over their shares.
     float largest_colour;
+    float width_factor; // of what maps of lobes hold where widths lie apart, see WIDTH_LAYER_...
     float padding_0;
-    float padding_1;
     // Where each map is read: two rows (u, v) of an affine transform of the texture coordinates.
     float4 transforms[2 * MAP_COUNT];
 };
@@ -57,6 +64,7 @@ INTERFACE_OFFSET(material_constants, lobe_direction, 48)
 INTERFACE_OFFSET(material_constants, lobe_colour, 112)
 INTERFACE_OFFSET(material_constants, occlusion_strength, 176)
 INTERFACE_OFFSET(material_constants, largest_colour, 180)
+INTERFACE_OFFSET(material_constants, width_factor, 184)
 INTERFACE_OFFSET(material_constants, transforms, 192)
 
 #endif

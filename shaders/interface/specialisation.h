@@ -54,6 +54,7 @@
 #define SPECIALISE_MAGNIFIED_MAPS SPECIALISE(36) // uint, bit MAP_...: pixels may use its level 0
 #define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
 #define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
+#define SPECIALISE_WIDTHS_APART   SPECIALISE(75) // bool: widths have a map of their own
 #define SPECIALISE_METAL_MEANS    SPECIALISE(53) // uint, METAL_MEANS_...
 #define SPECIALISE_COLOUR_NORMALS SPECIALISE(54) // bool: diffuse colours may go with normals
 #define SPECIALISE_MASKED_LOBES   SPECIALISE(55) // bool: maps of lobes leave out what a mask cuts

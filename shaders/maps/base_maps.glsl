@@ -48,7 +48,7 @@ float weight_of_point(vec2 point, float factor, float cutoff) {
 // microfacets.
 float width_at(vec2 point) {
     if (!has_map(MAP_WIDTH))
-        return 1.0;
+        return material.width_factor;
     vec4 value = base_texel(width_map, point);
     return MODEL == MODEL_MICROFACET ? value.g : value.r;
 }

@@ -53,6 +53,8 @@ vec4 fetch_averages(map_area area, surface_point surface) {
     float kept = MASKED_LOBES ? filtered_layer(parameter_map, area, 1u).x : 1.0;
     sum *= per_kept(kept);
     sum.xyz = stretched_mean(sum.xyz, surface);
+    if (WIDTHS_APART)
+        sum.w = fetch_width_means(surface).concentration;
     if (may_see_level_0(lobe_map())) {
         level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
         float width = averaged_width(unfiltered_material(surface, normals.mean));

@@ -79,6 +79,7 @@ base_material level_0_material(surface_point surface, level_0_normals normals) {
                             facing_normal(mean_direction(normals.mean, vec3(0.0, 0.0, 1.0)),
                                           surface));
     base.variance += normals.variance;
+    take_width(base, surface);
     return base;
 }
 

@@ -7,6 +7,8 @@
 #include "shading/surface.glsl"
 
 layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
+// The widths of lobes are not in their maps, see shading/colours/width_means.glsl.
+layout(constant_id = SPECIALISE_WIDTHS_APART) const bool WIDTHS_APART = false;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
 
 // How much longer than the extent of its probes a footprint may be, in widths.
@@ -68,7 +70,7 @@ vec2 lobe_map_size() {
     vec2 size = vec2(1.0);
     if (has_map(MAP_NORMAL))
         size = max(size, vec2(textureSize(normal_map, 0)));
-    if (has_map(MAP_WIDTH))
+    if (has_map(MAP_WIDTH) && !WIDTHS_APART)
         size = max(size, vec2(textureSize(width_map, 0)));
     return size;
 }

@@ -32,6 +32,13 @@ struct slope_moments {
     float kept;          // how much the texels count
 };
 
+// Of slopes. `mean`: as maps hold it.
+float base_variance_of(float mean, surface_point surface) {
+    if (WIDTHS_APART)
+        mean = 0.5 * fetch_width_means(surface).alpha_square;
+    return max(mean, 1.0 / CONCENTRATION_MAXIMUM);
+}
+
 vec3 scaled_normal(vec3 normal) {
     float height = height_scale();
     return height == 1.0 ? normal : normalize(vec3(height * normal.xy, normal.z));
@@ -68,7 +75,7 @@ slope_moments moments_of_layers(vec4 first, vec4 second, surface_point surface) 
     result.mean = height * first.xy;
     result.covariance = height * height * covariance_of_moments(first.xy, second.xyz);
     result.mean_cosine = first.z;
-    result.base_variance = max(first.w, 1.0 / CONCENTRATION_MAXIMUM);
+    result.base_variance = base_variance_of(first.w, surface);
     stretch_moments(result, surface);
     result.covariance += surface.curvature;
     return result;

@@ -292,6 +292,7 @@ static known_member known[] = {
     MEMBER(material_constants, lobe_colour, 7),
     MEMBER(material_constants, occlusion_strength, 8),
     MEMBER(material_constants, largest_colour, 9),
+    MEMBER(material_constants, width_factor, 10),
     MEMBER(material_constants, transforms, 12),
     MEMBER(mixture_extremes, places, 0),
     MEMBER(mixture_extremes, lobes, 1),

@@ -10,7 +10,7 @@
 static uint32_t variation_of(const device_material *material) {
     const device_map *widths = &material->maps[MAP_WIDTH];
     if (material->material->model != LOBE_MATERIAL_MICROFACET || !widths->use ||
-        widths->width * widths->height == 1)
+        widths->width * widths->height == 1 || passes_widths_lie_apart(material))
         return BASE_LOBES_ALIKE;
     return passes_mirrored_luminance_varies(material) ? BASE_LOBES_COLOURED : BASE_LOBES_VARY;
 }

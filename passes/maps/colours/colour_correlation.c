@@ -22,6 +22,7 @@ static bool has_texels(const device_map *map) {
 bool passes_colours_lie_like_normals(const device_material *material) {
     return has_texels(&material->maps[MAP_BASE_COLOUR]) &&
            has_texels(&material->maps[MAP_NORMAL]) &&
+           !(material->metallic_varies && passes_widths_lie_apart(material)) &&
            passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR);
 }
 

@@ -20,11 +20,11 @@ struct base_lobes {
 // Widths are taken to vary log-normally, as in lib/lobe/plane_lobe.glsl: with E[alpha] and
 // E[alpha^2], the variance of the logarithm is log E[alpha^2]/E[alpha]^2. One lobe of the mean
 // alpha stands for them elsewhere: that of the mean variance is too pale about its axis.
-base_lobes fetch_base_lobes(map_area area, float variance) {
+base_lobes fetch_base_lobes(map_area area, float variance, surface_point surface) {
     base_lobes result = base_lobes(variance, 0.0);
-    if (BASE_LOBES == BASE_LOBES_ALIKE)
+    if (!base_lobes_vary())
         return result;
-    vec2 alpha = fetch_alpha_moments(area);
+    vec2 alpha = fetch_alpha_moments(area, surface);
     if (BASE_HAS_TAILS) {
         float square = max(alpha.x * alpha.x, 2.0 / CONCENTRATION_MAXIMUM);
         result.variance = 0.5 * square;

@@ -38,7 +38,7 @@ void main() {
     cluster_sums sums = no_lobes();
     float complements[MATERIAL_MAXIMUM_LOBES];
     if (!has_map(MAP_WIDTH))
-        base_complements(1.0, complements);
+        base_complements(material.width_factor, complements);
     for (int y = 0; y < box_taps(size.y); ++y) {
         for (int x = 0; x < box_taps(size.x); ++x) {
             ivec2 texel = 2 * position + ivec2(x, y);

@@ -38,6 +38,16 @@ vec4 read_last_layer(map_area area) {
     return vec4(scale * colour_unit() * last.rgb, scale);
 }
 
+// In place of the one that the map holds, where widths lie apart from the normals.
+void take_widths(inout plane_bin bin) {
+    uint kind = distribution_kind();
+    float mass = plane_mass(MODEL, kind, parameter_of_plane_variance(kind, own_variance()));
+    bin.sharpness = max(drawn_widths.sharpness, 0.4);
+    bin.mean_variance = drawn_widths.variance;
+    bin.mass *=
+        plane_mass(MODEL, kind, parameter_of_plane_variance(kind, bin.mean_variance)) / mass;
+}
+
 // `mass_scale`: as read_last_layer gives it.
 plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uint index) {
     uint layers = BIN_COLOUR ? 3u : 2u;
@@ -59,6 +69,8 @@ plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uin
     bin.axis = direction_from_plane(bin.mean);
     bin.sharpness = max(place.w * scale * range.w, 0.4);
     bin.mean_variance = spread.w * scale * binning.bins[index].shape.w;
+    if (WIDTHS_APART)
+        take_widths(bin);
     float varies = width_statistics(bin);
     vec3 covariance =
         covariance_of(mean, spread.xyz * scale) * (range.z * range.z) + surface.curvature;

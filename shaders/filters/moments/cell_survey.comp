@@ -52,7 +52,7 @@ vec4 fetch_texel(sampler2D map, uvec2 position) {
 }
 
 grid_texel stored_texel(uvec2 position) {
-    grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), 1.0, 1.0);
+    grid_texel texel = grid_texel(vec3(0.0, 0.0, 1.0), material.width_factor, 1.0);
     if (has_map(MAP_NORMAL))
         texel.normal =
             decode_normal(fetch_texel(normal_map, position).xyz, material.normal_scale, NORMALS);
