@@ -75,8 +75,6 @@ struct lobe_filter {
     const char *shading;
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
-    /// Shading takes longer than drawing a picture of surfaces (passes/renderer/surfaces/).
-    bool shades_long;
     bool reads_heights;      ///< of materials, whether they displace geometry or not
     bool stretches_slopes;   ///< those of heights: the shader reads STRETCHED
     bool draws_waves;        ///< the shader has a variant WAVES

@@ -22,7 +22,6 @@ const lobe_filter passes_filter_lean = {
     .summary = "one anisotropic Beckmann lobe, from moments of the maps' slopes",
     .paper = "Olano, Baker 2010, LEAN Mapping",
     .shading = "lean",
-    .shades_long = true,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_MATERIAL,
     .knobs = knobs,

@@ -1,4 +1,3 @@
-#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/deform.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/motion/motion.h"
@@ -59,29 +58,33 @@ static motion_start start_of_motion(const rendering *r) {
     return start;
 }
 
-static void draw(rendering *r, const frame_delivery *delivery, const shading_targets *imported,
-                 shading_targets *targets) {
-    static const shading_sample centre = {.position = {0.5f, 0.5f}, .footprint = 1};
+static shading_targets declare_targets(const rendering *r, const frame_delivery *delivery,
+                                       const shading_targets *imported) {
     lobe_graph *graph = r->renderer->graph;
-    *targets = passes_shading_targets_declare(graph, r->width, r->height, delivery->aov);
+    shading_targets targets =
+        passes_shading_targets_declare(graph, r->width, r->height, delivery->aov);
     if (delivery->motion)
-        targets->motion = passes_motion_declare(graph, r->width, r->height);
-    passes_delivery_replace(imported, targets);
-    add_passes_before(graph, &r->parameters->host, targets);
+        targets.motion = passes_motion_declare(graph, r->width, r->height);
+    passes_delivery_replace(imported, &targets);
+    add_passes_before(graph, &r->parameters->host, &targets);
+    return targets;
+}
+
+static void draw(rendering *r, const frame_delivery *delivery, shading_targets *targets) {
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     light.shadows = passes_shadow_maps(&r->context, &r->renderer->draws, NULL);
-    passes_culling(&r->context, &r->renderer->draws);
     if (passes_samples_several(&r->context))
         passes_samples(&r->context, &r->renderer->draws, &light, targets);
     else
-        passes_shading(&r->context, &r->renderer->draws, &light, &centre, NULL, targets);
+        passes_shading(&r->context, &r->renderer->draws, &light, &passes_pixel_centre, NULL,
+                       r->surfaces.present ? &r->surfaces : NULL, targets);
     if (delivery->motion) {
         passes_deform_previous(&r->context, &r->renderer->motion.poses);
         passes_displacement_before(r->renderer->displacement, &r->context);
         const motion_start start = start_of_motion(r);
         passes_motion(&r->context, &r->renderer->draws, &start, targets);
     }
-    add_passes(graph, &r->parameters->host, LOBE_RENDER_AFTER_SHADING, targets);
+    add_passes(r->renderer->graph, &r->parameters->host, LOBE_RENDER_AFTER_SHADING, targets);
 }
 
 /// It goes to host memory like the other images, not to an image of the host's.
@@ -137,8 +140,10 @@ lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lo
     lobe_result result = passes_delivery_import(r, delivery, &imported);
     if (result != LOBE_OK)
         return result;
-    passes_instance_maps_build(r, frame);
-    draw(r, delivery, &imported, &targets);
+    passes_instances_list(r);
+    targets = declare_targets(r, delivery, &imported);
+    passes_instance_maps_build(r, &targets, frame);
+    draw(r, delivery, &targets);
     mark_outputs(r, delivery, &targets);
     result = passes_delivery_run(r, delivery, frame);
     if (result == LOBE_OK && delivery->motion && !delivery->prepares)

@@ -1,6 +1,5 @@
 #include "passes/context/sample_pattern.h"
 #include "passes/renderer/accumulation.h"
-#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/delivery.h"
 #include "passes/renderer/picture_drawing.h"
 
@@ -36,13 +35,12 @@ static lobe_resource declare_samples(rendering *r, const sample_sum *sum, uint32
     targets.without_background = sum->without_background;
     shading_light light = passes_shading_light_prepare(&r->context, &r->environment);
     lobe_resource resource = declare_sum(r);
-    passes_culling(&r->context, &r->renderer->draws);
     for (uint32_t i = 0; i < count; i++) {
         shading_sample sample = {.footprint = 1, .number = first + i, .pattern = sum->pattern};
         passes_sample_position(sample.number, sum->samples, sample.position);
         passes_sample_position_in_pattern(sum->pattern, sample.position);
         light.shadows = passes_shadow_maps(&r->context, &r->renderer->draws, &sample);
-        passes_shading(&r->context, &r->renderer->draws, &light, &sample, NULL, &targets);
+        passes_shading(&r->context, &r->renderer->draws, &light, &sample, NULL, NULL, &targets);
         resource = passes_accumulation(graph, targets.radiance, resource, r->width, r->height);
     }
     return resource;
@@ -53,7 +51,8 @@ static lobe_result render_samples(rendering *r, const frame_delivery *delivery, 
                                   uint32_t first, uint32_t count, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
     lobe_graph_begin(graph);
-    passes_instance_maps_build(r, frame);
+    passes_instances_list(r);
+    passes_instance_maps_build(r, NULL, frame);
     lobe_resource resource = declare_samples(r, sum, first, count);
     passes_delivery_mark_output(r, delivery, resource);
     lobe_result result = passes_delivery_run(r, delivery, frame);
@@ -152,7 +151,8 @@ static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_
     if (result != LOBE_OK)
         return result;
     // Redeclare the samples' retained resources; the graph frees any it does not see.
-    passes_instance_maps_build(r, frame);
+    passes_instances_list(r);
+    passes_instance_maps_build(r, NULL, frame);
     (void)passes_shading_light_prepare(&r->context, &r->environment);
     passes_delivery_replace(&imported, &targets);
     passes_picture_drawing(graph, frame->radiance.texels, &targets);

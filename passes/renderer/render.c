@@ -167,7 +167,8 @@ static lobe_result prepare_environment(rendering *r, lobe_frame *frame, bool *st
     r->fits.parts = 0;
     for (uint32_t done = 1; result == LOBE_OK && !*stopped && done <= count; done++) {
         lobe_graph_begin(r->renderer->graph);
-        passes_instance_maps_build(r, frame);
+        passes_instances_list(r);
+        passes_instance_maps_build(r, NULL, frame);
         (void)passes_shading_light_prepare(&r->context, &r->environment);
         result = passes_delivery_run(r, &none, frame);
         *stopped =

@@ -12,6 +12,7 @@
 #include "passes/maps/seen_tiles.h"
 #include "passes/renderer/draw_list.h"
 #include "passes/renderer/motion/motion_history.h"
+#include "passes/renderer/surfaces/surfaces.h"
 
 struct lobe_renderer {
     lobe_device *device;
@@ -43,15 +44,20 @@ typedef struct rendering {
     lobe_settings settings;
     filtered_images images;
     tile_marks tile_marks;
+    seen_surfaces surfaces; ///< by which tiles were marked; shading uses them again
     uint32_t width, height; ///< pixels
 } rendering;
 
 /// Warns about materials that the filter cannot fully represent, once per filter and scene.
 void passes_instance_maps_warn(const rendering *r);
 
-/// Adds the passes that build the filter's maps for every instance; instances share maps where the
-/// filter allows it. Fills the renderer's draws, and the frame's sizes of the maps.
-void passes_instance_maps_build(rendering *r, lobe_frame *frame);
+/// Takes what the host gives in this frame, moves what moves, and fills the renderer's draws;
+/// instances share maps where the filter allows it.
+void passes_instances_list(rendering *r);
+
+/// Then adds the passes that build the filter's maps for every instance. Fills the frame's sizes of
+/// the maps. `targets`: what a picture will be drawn into, if one is.
+void passes_instance_maps_build(rendering *r, shading_targets *targets, lobe_frame *frame);
 
 /// Checks the parameters, fills the context, saves what the last frame read back, and loads what
 /// this one needs of the environment.

@@ -109,6 +109,8 @@ shading_light passes_shading_light_prepare(const filter_context *context,
     return light;
 }
 
+const shading_sample passes_pixel_centre = {.position = {0.5f, 0.5f}, .footprint = 1};
+
 struct frame_constants passes_frame_constants(const filter_context *context,
                                               const shading_sample *sample, uint32_t width,
                                               uint32_t height) {
@@ -254,9 +256,7 @@ static void draw_triangles(const drawing *d, const instance_batch *batch, size_t
 
 /// Where the picture of surfaces shows the batch.
 static void draw_pictured(const drawing *d, lobe_draw *draw) {
-    draw->vertex_shader = "shading/surfaces/surfaces.vert";
-    draw->depth_equal = true;
-    draw->index_count = 3;
+    passes_surfaces_set_draw(draw);
     passes_selection_count(d->selection, MASK_DRAW, draw);
 }
 
@@ -341,9 +341,8 @@ static void draw_pass(shading *s, bool deferred, bool begun, lobe_resource frame
     if (draws_background(context, &light->environment) && !targets->keep_radiance &&
         !targets->without_background && !begun)
         draw_background(&d, s->sample, d.aov);
-    const bool all = !s->surfaces.present || (s->surfaces.open && !deferred);
     for (size_t i = 0; i < s->draws->batch_count; i++)
-        if (all || passes_surfaces_hold(context, &s->draws->batches[i]) == deferred)
+        if (passes_surfaces_show(context, &s->surfaces, &s->draws->batches[i], deferred))
             draw_batch(&d, s->draws, i);
 }
 
@@ -419,7 +418,8 @@ static bool shows_light(const filter_context *context) {
 
 void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
-                    const shading_selection *selection, shading_targets *targets) {
+                    const shading_selection *selection, const seen_surfaces *surfaces,
+                    shading_targets *targets) {
     shading s = {.context = context,
                  .draws = draws,
                  .sample = sample,
@@ -427,7 +427,7 @@ void passes_shading(const filter_context *context, const draw_list *draws,
                  .lights = passes_light_counts(context->scene->scene)};
     const light_part first = passes_light_part(context, 0);
     const lobe_resource frame = upload_frame(&s, first, targets);
-    s.surfaces = passes_surfaces(context, draws, frame, selection, light->shadows.present, targets);
+    s.surfaces = surfaces ? *surfaces : passes_surfaces(context, draws, frame, selection, targets);
     const bool several = shows_light(context) && first.count < context->scene->scene->light_count;
     const bool kept = s.surfaces.present ? !s.surfaces.holds_all : targets->keep_depth;
     const lobe_resource depth =

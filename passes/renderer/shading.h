@@ -6,6 +6,7 @@
 #include "passes/renderer/draw_list.h"
 #include "passes/renderer/samples/selection.h"
 #include "passes/renderer/shadows/shadow_maps.h"
+#include "passes/renderer/surfaces/surfaces.h"
 #include "passes/renderer/surfaces/targets.h"
 
 shading_targets passes_shading_targets_declare(lobe_graph *graph, uint32_t width, uint32_t height,
@@ -30,6 +31,9 @@ typedef struct shading_light {
 shading_light passes_shading_light_prepare(const filter_context *context,
                                            const environment_work *work);
 
+/// The only sample of a pixel.
+extern const shading_sample passes_pixel_centre;
+
 /// The constants of a picture of `width` x `height` pixels, without lights.
 struct frame_constants passes_frame_constants(const filter_context *context,
                                               const shading_sample *sample, uint32_t width,
@@ -37,10 +41,12 @@ struct frame_constants passes_frame_constants(const filter_context *context,
 
 /// Adds the passes that draw all instances with the filter's shader: one, unless there are many
 /// lights (passes/renderer/light_parts.h).
-/// `selection`: NULL: all pixels.
+/// `selection`: NULL: all pixels. `surfaces`: those of the same draws, sample and targets; NULL:
+/// they are drawn here, where shading is deferred.
 void passes_shading(const filter_context *context, const draw_list *draws,
                     const shading_light *light, const shading_sample *sample,
-                    const shading_selection *selection, shading_targets *targets);
+                    const shading_selection *selection, const seen_surfaces *surfaces,
+                    shading_targets *targets);
 
 /// What a draw draws.
 typedef struct shading_draw_count {

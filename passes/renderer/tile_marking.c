@@ -4,7 +4,6 @@
 #include "passes/filters/material_shading.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/tile_knobs.h"
-#include "passes/renderer/culling/culling.h"
 #include "passes/renderer/shading.h"
 #include "passes/renderer/surfaces/surfaces.h"
 #include "passes/upload/material_maps.h"
@@ -73,20 +72,6 @@ static lobe_resource clear_marks(lobe_graph *graph, uint32_t count) {
 // ---------------------------------------------------------------------------------------------
 // Draws
 
-static void list_draws(rendering *r) {
-    const device_scene *scene = r->context.scene;
-    draw_list *draws = &r->renderer->draws;
-    passes_draw_list_begin(draws, scene);
-    for (size_t i = 0; i < scene->scene->material_count; i++) {
-        uint32_t next = marked_maps(&scene->materials[i]) ? scene->materials[i].first_instance : 0;
-        for (; next > 0; next = scene->instances[next - 1].next_of_material)
-            if (!scene->scene->instances[next - 1].hidden)
-                passes_draw_list_add(draws, scene, next - 1, NULL, true);
-    }
-    passes_draw_list_end(draws, &r->context);
-    passes_culling(&r->context, draws);
-}
-
 static lobe_resource upload_maps(const rendering *r, uint32_t index) {
     static const uint wraps[] = {[LOBE_WRAP_REPEAT] = TILE_WRAP_REPEAT,
                                  [LOBE_WRAP_MIRROR] = TILE_WRAP_MIRROR,
@@ -109,25 +94,36 @@ static lobe_resource upload_maps(const rendering *r, uint32_t index) {
     return lobe_graph_upload(r->context.graph, "tiles", maps, sizeof maps);
 }
 
-static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pass *pass) {
-    const filter_context *context = &r->context;
+/// What the draws of a pass share.
+typedef struct marking {
+    const rendering *r;
+    lobe_pass *pass;
+    bool deferred; ///< surfaces come from their picture
+} marking;
+
+static void draw_batch(const marking *m, uint32_t index) {
+    const filter_context *context = &m->r->context;
     const device_scene *scene = context->scene;
+    const instance_batch *batch = &m->r->renderer->draws.batches[index];
     const device_instance *drawn = &scene->instances[batch->instance];
     const device_material *material = &scene->materials[drawn->material];
-    lobe_graph *graph = context->graph;
-    const struct draw_constants constants = {.first_instance = batch->first};
+    const struct draw_constants constants = {.first_instance = batch->first, .number = 1 + index};
     lobe_binding bindings[4 + MAP_SHADING] = {
-        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
-        {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
         {.name = "material_block",
-         .resource = lobe_graph_import_buffer(graph, material->constants)},
-        {.name = "tile_block", .resource = upload_maps(r, drawn->material)},
+         .resource = lobe_graph_import_buffer(context->graph, material->constants)},
+        {.name = "tile_block", .resource = upload_maps(m->r, drawn->material)},
+        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
     };
-    passes_material_maps_bind(context, material, bindings + 4);
-    specialisation_list list = {.graph = graph};
+    size_t count = 3;
+    if (!m->deferred)
+        bindings[count++] = (lobe_binding){.name = "vertex_block",
+                                           .resource = passes_batch_vertices(context, batch)};
+    passes_material_maps_bind(context, material, bindings + count);
+    specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);
     passes_knobs_specialise(context, &list);
     passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
+    passes_specialise(&list, SPECIALISE_DEFERRED, m->deferred);
     passes_specialise(&list, SPECIALISE_FILTERED_MAPS, marked_maps(material));
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
@@ -140,48 +136,104 @@ static void draw_batch(const rendering *r, const instance_batch *batch, lobe_pas
         .specialisation = list.items,
         .specialisation_count = list.count,
         .bindings = bindings,
-        .binding_count = 4 + MAP_SHADING,
+        .binding_count = count + MAP_SHADING,
     };
-    passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
-    lobe_pass_draw(pass, &draw);
+    if (m->deferred)
+        passes_surfaces_set_draw(&draw);
+    else
+        passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
+    lobe_pass_draw(m->pass, &draw);
 }
 
-static lobe_resource draw_marks(rendering *r, lobe_resource marks) {
-    static const shading_sample centre = {.position = {0.5f, 0.5f}, .footprint = 1};
+/// Whether a pass draws a batch: with surfaces, those that they hold or the others.
+static bool is_drawn(const marking *m, uint32_t index) {
+    const filter_context *context = &m->r->context;
+    const device_scene *scene = context->scene;
+    const instance_batch *batch = &m->r->renderer->draws.batches[index];
+    if (!marked_maps(&scene->materials[scene->instances[batch->instance].material]))
+        return false;
+    return passes_surfaces_show(context, &m->r->surfaces, batch, m->deferred);
+}
+
+/// What the picture holds hides the others.
+static lobe_resource begin_depth(const rendering *r, const shading_targets *targets) {
     lobe_graph *graph = r->context.graph;
-    const struct frame_constants frame =
-        passes_frame_constants(&r->context, &centre, r->width, r->height);
-    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "tile_marking");
-    lobe_pass_read(
-        pass, &(lobe_binding){.name = "frame_block",
-                              .resource = lobe_graph_upload(graph, "frame", &frame, sizeof frame)});
-    passes_shared_knobs_bind(&r->context, pass);
-    lobe_pass_read(pass, &(lobe_binding){.name = "surfaces",
-                                         .resource = passes_surfaces_absent(&r->context).layers});
-    marks = lobe_pass_modify(pass, &(lobe_binding){.name = "mark_block", .resource = marks});
     const lobe_resource depth =
         lobe_graph_image(graph, &(lobe_image_description){.name = "depth of tiles",
                                                           .format = LOBE_FORMAT_D32_FLOAT,
                                                           .width = r->width,
                                                           .height = r->height});
-    (void)lobe_pass_depth(pass, &(lobe_attachment){.resource = depth});
-    for (size_t i = 0; i < r->renderer->draws.batch_count; i++)
-        draw_batch(r, &r->renderer->draws.batches[i], pass);
+    if (!r->surfaces.present)
+        return depth;
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "depth_copy");
+    return lobe_pass_copy(pass, targets->depth, (lobe_range){0}, depth, (lobe_range){0});
+}
+
+static void attach_depth(marking *m, rendering *r, const shading_targets *targets) {
+    if (m->deferred)
+        r->surfaces.numbers = lobe_pass_depth(
+            m->pass, &(lobe_attachment){.resource = r->surfaces.numbers, .load = LOBE_LOAD_KEEP});
+    else
+        (void)lobe_pass_depth(
+            m->pass,
+            &(lobe_attachment){.resource = begin_depth(r, targets),
+                               .load = r->surfaces.present ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+}
+
+static bool draws_any(const marking *m) {
+    for (uint32_t i = 0; i < m->r->renderer->draws.batch_count; i++)
+        if (is_drawn(m, i))
+            return true;
+    return false;
+}
+
+static lobe_resource draw_marks(rendering *r, bool deferred, lobe_resource frame,
+                                const shading_targets *targets, lobe_resource marks) {
+    marking m = {.r = r, .deferred = deferred};
+    if (!draws_any(&m))
+        return marks;
+    lobe_graph *graph = r->context.graph;
+    const lobe_resource layers =
+        deferred ? r->surfaces.layers : passes_surfaces_absent(&r->context).layers;
+    m.pass = lobe_graph_add_pass(graph, LOBE_PASS_RASTER, "tile_marking");
+    attach_depth(&m, r, targets);
+    lobe_pass_read(m.pass, &(lobe_binding){.name = "frame_block", .resource = frame});
+    lobe_pass_read(m.pass, &(lobe_binding){.name = "surfaces", .resource = layers});
+    passes_shared_knobs_bind(&r->context, m.pass);
+    marks = lobe_pass_modify(m.pass, &(lobe_binding){.name = "mark_block", .resource = marks});
+    for (uint32_t i = 0; i < r->renderer->draws.batch_count; i++)
+        if (is_drawn(&m, i))
+            draw_batch(&m, i);
     return marks;
 }
 
-void passes_tile_marking(rendering *r) {
+static lobe_resource mark(rendering *r, shading_targets *targets, lobe_resource marks) {
+    if (r->renderer->draws.batch_count == 0)
+        return marks;
+    const struct frame_constants constants =
+        passes_frame_constants(&r->context, &passes_pixel_centre, r->width, r->height);
+    const lobe_resource frame =
+        lobe_graph_upload(r->context.graph, "frame", &constants, sizeof constants);
+    r->surfaces = passes_surfaces(&r->context, &r->renderer->draws, frame, NULL, targets);
+    if (r->surfaces.present)
+        marks = draw_marks(r, true, frame, targets, marks);
+    return r->surfaces.present && r->surfaces.holds_all
+               ? marks
+               : draw_marks(r, false, frame, targets, marks);
+}
+
+void passes_tile_marking(rendering *r, shading_targets *targets) {
     r->context.marks = NULL;
+    r->surfaces = (seen_surfaces){0};
     if (!passes_wants_seen_tiles(&r->context))
         return;
     const uint32_t count = place_marks(r);
     if (count == 0)
         return;
-    lobe_resource marks = clear_marks(r->context.graph, count);
-    list_draws(r);
-    if (r->renderer->draws.batch_count > 0)
-        marks = draw_marks(r, marks);
-    r->tile_marks = (tile_marks){.marks = marks,
+    shading_targets own =
+        passes_shading_targets_declare(r->context.graph, r->width, r->height, false);
+    const lobe_resource marks = clear_marks(r->context.graph, count);
+    r->tile_marks = (tile_marks){.marks = mark(r, targets ? targets : &own, marks),
                                  .first_marks = r->renderer->first_marks,
                                  .first_image_marks = r->renderer->first_marks +
                                                       r->context.scene->scene->material_count,

@@ -4,8 +4,10 @@
 #include "passes/renderer/renderer.h"
 
 /// Adds the passes that mark which tiles of the maps of lobes the picture's pixels read, if the
-/// filter's knobs ask for that (passes/maps/seen_tiles.h), and tells the filter. Comes after what
-/// the host gives in this frame, and before the maps. Uses the renderer's list of draws.
-void passes_tile_marking(rendering *r);
+/// filter's knobs ask for that (passes/maps/seen_tiles.h), and tells the filter. Comes after
+/// passes_instances_list, and before the maps.
+/// `targets`: of the picture; NULL: of one that is not drawn. Where shading is deferred, the
+/// picture of surfaces is drawn now, with the targets' depth, and kept for shading.
+void passes_tile_marking(rendering *r, shading_targets *targets);
 
 #endif

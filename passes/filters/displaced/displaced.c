@@ -189,7 +189,6 @@ const lobe_filter passes_filter_displaced = {
     .paper = "after Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "displaced",
-    .shades_long = true,
     .knobs = knobs,
     .reads_heights = true,
     .gathers_moments = true,

@@ -55,7 +55,6 @@ const lobe_filter passes_filter_leadr = {
     .summary = "one anisotropic Beckmann lobe, masked and lit as displaced facets are",
     .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping",
     .shading = "leadr",
-    .shades_long = true,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
     .draws_waves = true,

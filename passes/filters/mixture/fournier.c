@@ -64,7 +64,6 @@ const lobe_filter passes_filter_fournier = {
     .summary = "Phong peaks fitted under each texel, those of all texels around evaluated",
     .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces",
     .shading = "fournier",
-    .shades_long = true,
     .knobs = knobs,
     .fetches_for_lights = true,
     .fetches_texels = true,

@@ -90,7 +90,6 @@ const lobe_filter passes_filter_tan = {
     .summary = "a mixture of round Gaussians of normals fitted under each texel",
     .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "tan",
-    .shades_long = true,
     .knobs = knobs,
     .prepare = prepare,
     .adapts_to_texels = true,

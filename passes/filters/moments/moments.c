@@ -297,7 +297,6 @@ const lobe_filter passes_filter_moments = {
     .summary = "moments of lobes in bins fitted to the material",
     .paper = "",
     .shading = "moments",
-    .shades_long = true,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

@@ -164,7 +164,6 @@ const lobe_filter passes_filter_wu = {
     .paper = "Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "wu",
-    .shades_long = true,
     .knobs = knobs,
     .reads_heights = true,
     .prepare = prepare,

@@ -10,7 +10,8 @@ static const frame_delivery nothing = {0};
 static uint32_t declare(rendering *r, lobe_frame *frame) {
     lobe_graph_begin(r->renderer->graph);
     r->fits.parts = 1;
-    passes_instance_maps_build(r, frame);
+    passes_instances_list(r);
+    passes_instance_maps_build(r, NULL, frame);
     (void)passes_shading_light_prepare(&r->context, &r->environment);
     return r->fits.parts_left + (r->fits.parts == 0);
 }

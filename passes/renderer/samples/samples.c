@@ -44,7 +44,7 @@ static lobe_resource draw_first(const filter_context *context, const draw_list *
     first.keep_radiance = false;
     first.depth_as_coverage = true;
     passes_sample_position_around_centre(0, sample.position);
-    passes_shading(context, draws, light, &sample, NULL, &first);
+    passes_shading(context, draws, light, &sample, NULL, NULL, &first);
     targets->depth = first.depth;
     targets->normal_depth = first.normal_depth;
     targets->lobes_level = first.lobes_level;
@@ -86,7 +86,7 @@ static lobe_resource draw_others(const filter_context *context, const draw_list 
         // Evenly spread thresholds meet a mask's coverage as closely as the samples' number allows.
         shading_sample sample = {.footprint = count.footprint, .dither = passes_radical_inverse(i)};
         passes_sample_position_around_centre(i, sample.position);
-        passes_shading(context, draws, light, &sample, &selection, &one);
+        passes_shading(context, draws, light, &sample, &selection, NULL, &one);
         sum = add_sample(context, choice, i, one.radiance, sum);
     }
     return sum;

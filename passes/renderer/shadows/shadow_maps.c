@@ -158,6 +158,10 @@ static shadow_plan whole_plan(const filter_context *context) {
     return plan;
 }
 
+bool passes_shadow_maps_wanted(const filter_context *context) {
+    return whole_plan(context).layers > 0;
+}
+
 void passes_shadow_maps_warn(const filter_context *context) {
     const shadow_plan plan = whole_plan(context);
     if (plan.missed > 0)

@@ -23,6 +23,9 @@ uint32_t passes_shadow_plan_take(shadow_plan *plan, const lobe_light *light);
 /// Says how many lights cast no shadow for lack of room, if any do.
 void passes_shadow_maps_warn(const filter_context *context);
 
+/// Whether passes_shadow_maps draws any.
+bool passes_shadow_maps_wanted(const filter_context *context);
+
 typedef struct shadow_maps {
     lobe_resource maps;   ///< D32_FLOAT, a layer for each view
     lobe_resource slopes; ///< RG16_FLOAT, how these depths change, see shadow_slope.glsl

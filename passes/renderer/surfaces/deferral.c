@@ -56,8 +56,7 @@ static bool holds_any(const filter_context *context, const draw_list *draws) {
 
 /// Whether what is drawn decides.
 static bool may_be_worth_it(const filter_context *context) {
-    return context->filter->shades_long && context->device->type == LOBE_DEVICE_CPU &&
-           fits(context);
+    return context->device->type == LOBE_DEVICE_CPU && fits(context);
 }
 
 bool passes_shading_is_open(const filter_context *context) {

@@ -4,6 +4,7 @@
 
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/renderer/shadows/shadow_maps.h"
 #include "passes/renderer/surfaces/deferral.h"
 #include "shaders/interface/picture/surfaces.h"
 #include "shaders/interface/specialisation.h"
@@ -22,6 +23,20 @@ seen_surfaces passes_surfaces_absent(const filter_context *context) {
                                lobe_graph_import_texture(context->graph, context->scene->white)};
 }
 
+bool passes_surfaces_show(const filter_context *context, const seen_surfaces *surfaces,
+                          const instance_batch *batch, bool deferred) {
+    return !surfaces->present || (surfaces->open && !deferred) ||
+           passes_surfaces_hold(context, batch) == deferred;
+}
+
+void passes_surfaces_set_draw(lobe_draw *draw) {
+    draw->vertex_shader = "shading/surfaces/surfaces.vert";
+    draw->cull = LOBE_CULL_NONE;
+    draw->depth_test = draw->depth_equal = true;
+    draw->depth_write = false;
+    draw->index_count = 3;
+}
+
 // ---------------------------------------------------------------------------------------------
 // Which layers
 
@@ -35,8 +50,8 @@ static bool needs_plane(const filter_context *context, const instance_batch *bat
     return batch->displaced.vertices.version > 0 || passes_batch_map_width(context, batch) > 0;
 }
 
-static void find_layers(surfaces_drawing *d, bool shadows) {
-    d->plane = shadows;
+static void find_layers(surfaces_drawing *d) {
+    d->plane = passes_shadow_maps_wanted(d->context);
     for (uint32_t i = 0; i < d->draws->batch_count; i++) {
         const instance_batch *batch = &d->draws->batches[i];
         if (!passes_surfaces_hold(d->context, batch))
@@ -155,13 +170,13 @@ static lobe_resource draw_numbers(const filter_context *context, lobe_resource l
 }
 
 seen_surfaces passes_surfaces(const filter_context *context, const draw_list *draws,
-                              lobe_resource frame, const shading_selection *selection, bool shadows,
+                              lobe_resource frame, const shading_selection *selection,
                               shading_targets *targets) {
     if (!passes_defers_shading(context, draws))
         return passes_surfaces_absent(context);
     surfaces_drawing d = {
         .context = context, .draws = draws, .frame = frame, .selection = selection};
-    find_layers(&d, shadows);
+    find_layers(&d);
     const bool open = passes_shading_is_open(context);
     seen_surfaces surfaces = {.present = true, .holds_all = !open, .open = open};
     for (uint32_t i = 0; i < draws->batch_count; i++)

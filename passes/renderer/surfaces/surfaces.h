@@ -20,13 +20,19 @@ typedef struct seen_surfaces {
     lobe_resource numbers; ///< D32_FLOAT: the numbers of the batches that are seen
 } seen_surfaces;
 
+/// Whether a pass draws a batch: one that reads the picture (`deferred`), or one of triangles.
+bool passes_surfaces_show(const filter_context *context, const seen_surfaces *surfaces,
+                          const instance_batch *batch, bool deferred);
+/// What draws a batch where the picture shows it, in a pass whose depths are `numbers`.
+void passes_surfaces_set_draw(lobe_draw *draw);
+
 /// What shading binds where there is no picture.
 seen_surfaces passes_surfaces_absent(const filter_context *context);
 
 /// Draws the picture, and the targets' depth, if the knob `shading` says so. `frame`: buffer of
 /// struct frame_constants.
 seen_surfaces passes_surfaces(const filter_context *context, const draw_list *draws,
-                              lobe_resource frame, const shading_selection *selection, bool shadows,
+                              lobe_resource frame, const shading_selection *selection,
                               shading_targets *targets);
 
 #endif

@@ -216,7 +216,7 @@ static void sum_in_one_submission(fixture *f, const lobe_scene *scene, uint32_t 
     for (uint32_t i = 0; i < samples; i++) {
         shading_sample sample = {.number = i};
         passes_sample_position(i, samples, sample.position);
-        passes_shading(&context, &draws, &light, &sample, NULL, &targets);
+        passes_shading(&context, &draws, &light, &sample, NULL, NULL, &targets);
         sum = passes_accumulation(f->graph, targets.radiance, sum, extent, extent);
     }
     lobe_graph_read_back(f->graph, sum, (lobe_range){0});
