@@ -143,6 +143,36 @@ static void find_equal_sets(const device_scene *scene, device_material *material
     material->parameter_version += material->equal_sets != before;
 }
 
+/// Whether all corners of a box of texture coordinates (least, largest) are read within the map.
+static bool are_inside(const float box[2][2], const lobe_texture_use *use) {
+    const double slack = 1e-4;
+    for (int i = 0; i < 8; i++) {
+        const float *row = use->transform[i / 4];
+        const double value = (double)row[0] * (double)box[i & 1][0] +
+                             (double)row[1] * (double)box[i >> 1 & 1][1] + (double)row[2];
+        if (!(value >= -slack && value <= 1 + slack))
+            return false;
+    }
+    return true;
+}
+
+/// The same of where this changes.
+static void find_inside(const device_scene *scene, device_material *material) {
+    const uint32_t before = material->inside;
+    material->inside = material->map_bits;
+    for (uint32_t next = material->first_instance; next > 0;
+         next = scene->instances[next - 1].next_of_material) {
+        const mesh_measures *measures = &scene->measures[scene->instances[next - 1].mesh];
+        for (uint32_t map = 0; map < MAP_COUNT; map++) {
+            const lobe_texture_use *use = material->maps[map].use;
+            if (use && !are_inside(measures->coordinates[use->texture_coordinates], use))
+                material->inside &= ~(1u << map);
+        }
+    }
+    material->version += material->inside != before;
+    material->parameter_version += material->inside != before;
+}
+
 /// The same of where this changes.
 static void find_mask(device_scene *scene, device_material *material) {
     const bool before = material->masked;
@@ -168,6 +198,7 @@ void passes_device_scene_link_instances(device_scene *scene) {
     for (size_t i = 0; i < scene->scene->material_count; i++) {
         if (scene->materials[i].first_instance > 0) {
             find_equal_sets(scene, &scene->materials[i]);
+            find_inside(scene, &scene->materials[i]);
             find_mask(scene, &scene->materials[i]);
         }
     }

@@ -340,6 +340,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
         .height = source->height_map,
         .height_scale = source->height_scale,
         .equal_sets = before.equal_sets,
+        .inside = before.inside,
         .masked = before.masked,
         .colours = before.colours,
         .version = before.version,

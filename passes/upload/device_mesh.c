@@ -44,6 +44,21 @@ static void measure_alpha(const lobe_mesh *mesh, mesh_measures *measures) {
     }
 }
 
+/// Vertices that the host gives on the device may be anywhere.
+static void measure_coordinates(const lobe_mesh *mesh, mesh_measures *measures) {
+    for (int i = 0; i < 4; i++) {
+        measures->coordinates[i / 2][0][i % 2] = mesh->on_device ? -INFINITY : INFINITY;
+        measures->coordinates[i / 2][1][i % 2] = mesh->on_device ? INFINITY : -INFINITY;
+    }
+    for (size_t i = 0; !mesh->on_device && i < 4 * mesh->vertex_count; i++) {
+        const size_t set = i % 4 / 2, axis = i % 2;
+        const float value = mesh->vertices[i / 4].texture_coordinates[set][axis];
+        float(*bounds)[2] = measures->coordinates[set];
+        bounds[0][axis] = fminf(bounds[0][axis], value);
+        bounds[1][axis] = fmaxf(bounds[1][axis], value);
+    }
+}
+
 static void measure_bounds(const lobe_mesh *mesh, mesh_measures *measures) {
     for (int axis = 0; axis < 3; axis++) {
         measures->minimum[axis] = INFINITY;
@@ -92,6 +107,7 @@ static mesh_measures measure(const lobe_mesh *mesh, uint32_t version) {
     measure_density(mesh, &measures);
     measure_alpha(mesh, &measures);
     measure_bounds(mesh, &measures);
+    measure_coordinates(mesh, &measures);
     return measures;
 }
 

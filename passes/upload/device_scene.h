@@ -66,6 +66,9 @@ typedef struct device_material {
     /// (mesh_measures), so that a map lies on them alike by either. Found where a map uses the
     /// second set, else false.
     bool equal_sets;
+    /// Bit MAP_...: on all meshes that have the material, the map's coordinates stay within [0, 1],
+    /// so that how they wrap does not matter.
+    uint32_t inside;
     uint32_t first_instance; ///< 1 + index of the first that has it; 0: none
     /// Normals made from the height map (passes/upload/heights/), in place of a normal map; NULL:
     /// none.
@@ -122,6 +125,9 @@ typedef struct mesh_measures {
     /// coordinates (the root of their area) per metre (the root of the triangle's area) over all
     /// triangles.
     float least_density[2];
+    /// Of both sets of texture coordinates: least u and v, largest u and v. Infinite where they are
+    /// not known.
+    float coordinates[2][2][2];
     bool equal_sets; ///< it has both sets, and they are equal at all vertices, as far as is known
     float least_alpha, largest_alpha; ///< of the vertices' colours
     float minimum[3], maximum[3];     ///< of their positions, before any deformation

@@ -105,8 +105,10 @@ bool passes_device_map_is_interpolated(const device_material *material, uint32_t
 static bool share_coordinates(const device_material *material, uint32_t a, uint32_t b,
                               uint32_t sets) {
     const lobe_texture_use *first = material->maps[a].use, *second = material->maps[b].use;
+    const bool wrap_alike = first->wrap_u == second->wrap_u && first->wrap_v == second->wrap_v;
     return (sets >> a & 1) == (sets >> b & 1) &&
-           memcmp(first->transform, second->transform, sizeof first->transform) == 0;
+           memcmp(first->transform, second->transform, sizeof first->transform) == 0 &&
+           (wrap_alike || (material->inside >> a & material->inside >> b & 1) != 0);
 }
 
 static bool has_texels(const device_map *map) {
@@ -124,7 +126,9 @@ bool passes_widths_lie_apart(const device_material *material) {
 }
 
 bool passes_widths_may_lie_apart(const device_material *material) {
-    return widths_lie_apart(material, material->second_coordinates);
+    device_material anywhere = *material;
+    anywhere.inside = 0;
+    return widths_lie_apart(&anywhere, material->second_coordinates);
 }
 
 lobe_grid passes_lobe_grid(const device_material *material) {

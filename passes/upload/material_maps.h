@@ -47,10 +47,11 @@ bool passes_lobe_grid_varies(const lobe_grid *grid);
 /// other texture coordinates. Maps of lobes then hold lobes of one width, and shading takes their
 /// own from another map (passes/maps/colours/width_means.h).
 bool passes_widths_lie_apart(const device_material *material);
-/// The same, if not all meshes have two equal sets of texture coordinates.
+/// The same, as it may be with other meshes.
 bool passes_widths_may_lie_apart(const device_material *material);
 /// Whether two maps that a material has are laid out on the surface alike, whatever their numbers
-/// of texels: by one set of texture coordinates, or by two equal ones, with the same transform.
+/// of texels: by one set of texture coordinates, or by two equal ones, with the same transform; and
+/// wrapped alike, unless all meshes lie within both.
 bool passes_maps_share_coordinates(const device_material *material, uint32_t a, uint32_t b);
 /// Whether a map that a material has is laid out on the surface as its grid is.
 bool passes_lobe_grid_shares_coordinates(const device_material *material, uint32_t map);

@@ -1,17 +1,19 @@
-// Materials whose widths lie on the surface otherwise than their normals do: a relief that repeats
-// eight times over one map of roughness and metal, against many samples of each pixel.
+// Materials whose widths lie on the surface otherwise than their normals do, against many samples
+// of each pixel: a relief that repeats eight times over one map of roughness and metal; and one
+// that repeats where that map is mirrored.
 
 #include <math.h>
 
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
-enum { SIDE = 16, NORMALS = 16, WIDTHS = 128, REPEATS = 8 };
+enum { SIDE = 16, NORMALS = 32, WIDTHS = 128, REPEATS = 8 };
 
 typedef struct width_case {
     const char *filter;
     double tolerance;    ///< of the means of light; what the filter has anyway
     double roughness[2]; ///< of the map's left and right half
+    bool mirrored;       ///< both maps are there twice, and the normals are not mirrored
     bool paint;          ///< every other texel of a chessboard is black paint, else all are metal
 } width_case;
 
@@ -30,9 +32,12 @@ static void add_maps(lobe_scene *scene, lobe_material *material, const width_cas
         colour[3] = 1;
     }
     material->normal_map = scene_add_map(scene, random_normal_map(NORMALS, NORMALS, 0.4, 7));
-    material->normal_map.transform[0][0] = material->normal_map.transform[1][1] = REPEATS;
+    if (!tested->mirrored)
+        material->normal_map.transform[0][0] = material->normal_map.transform[1][1] = REPEATS;
     material->metallic_roughness_map = scene_add_map(scene, widths);
     material->base_colour_map = scene_add_map(scene, colours);
+    if (tested->mirrored)
+        material->metallic_roughness_map.wrap_u = LOBE_SCENE_WRAP_MIRROR;
     material->metallic_roughness_map.nearest = material->base_colour_map.nearest = true;
 }
 
@@ -40,22 +45,22 @@ static lobe_scene *worn_sheet(const width_case *tested) {
     lobe_scene *scene = scene_begin();
     lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
     add_maps(scene, &material, tested);
-    scene_add_square(scene, &material, 1, NULL);
+    scene_add_square(scene, &material, tested->mirrored ? 2 : 1, NULL);
     scene_look_down(scene, 2);
     scene_add_sun(scene, (double[]){0.1, 1, 0.05}, 1);
     scene_end(scene);
     return scene;
 }
 
-/// Sums over the middle of the left and of the right half, which no footprint leaves.
+/// Sums over the middle of the left and of the right quarter, which no footprint leaves.
 static void sum_halves(const lobe_frame *frame, double sums[2][3]) {
     for (int k = 0; k < 6; k++)
         sums[k / 3][k % 3] = 0;
     for (uint32_t y = 2; y < SIDE - 2; y++)
-        for (uint32_t x = 0; x < 4; x++)
+        for (uint32_t x = 0; x < 2; x++)
             for (int k = 0; k < 6; k++)
                 sums[k / 3][k % 3] +=
-                    (double)pixel_at(&frame->radiance, x + (k < 3 ? 2 : SIDE - 6), y)[k % 3];
+                    (double)pixel_at(&frame->radiance, x + (k < 3 ? 1 : SIDE - 3), y)[k % 3];
 }
 
 static void check_case(fixture *f, const width_case *tested) {
@@ -74,7 +79,7 @@ static void check_case(fixture *f, const width_case *tested) {
     for (int k = 0; k < 6; k++) {
         const double ratio = sums[1][k / 3][k % 3] / sums[0][k / 3][k % 3];
         if (!(fabs(ratio - 1) < tested->tolerance))
-            fail_msg("%s%s, %s half, channel %d: %.3f of the reference", tested->filter,
+            fail_msg("%s%s, %s side, channel %d: %.3f of the reference", tested->filter,
                      tested->paint ? ", paint" : "", k < 3 ? "left" : "right", k % 3, ratio);
     }
 }
@@ -82,19 +87,30 @@ static void check_case(fixture *f, const width_case *tested) {
 /// Read where the relief lies, each half would have the roughness of both.
 static void each_place_has_its_own_width(void **state) {
     static const width_case cases[] = {
-        {"toksvig", 0.2, {0.45, 0.95}, false},  {"lean", 0.2, {0.45, 0.95}, false},
-        {"leadr", 0.03, {0.45, 0.95}, false},   {"multi_leadr", 0.03, {0.45, 0.95}, false},
-        {"lobes", 0.2, {0.45, 0.95}, false},    {"moments", 0.03, {0.45, 0.95}, false},
-        {"mixture", 0.03, {0.45, 0.95}, false},
+        {"toksvig", 0.2, {0.45, 0.95}, false, false},
+        {"lean", 0.2, {0.45, 0.95}, false, false},
+        {"leadr", 0.03, {0.45, 0.95}, false, false},
+        {"multi_leadr", 0.03, {0.45, 0.95}, false, false},
+        {"lobes", 0.2, {0.45, 0.95}, false, false},
+        {"moments", 0.03, {0.45, 0.95}, false, false},
+        {"mixture", 0.03, {0.45, 0.95}, false, false},
     };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        check_case(*state, &cases[i]);
+}
+
+/// As if both were mirrored, the right side would have the roughness beside it.
+static void maps_wrap_each_by_itself(void **state) {
+    static const width_case cases[] = {{"leadr", 0.05, {0.45, 0.95}, true, false},
+                                       {"moments", 0.05, {0.45, 0.95}, true, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
 }
 
 /// Of mean colours times mean metal, half of the highlight would be missing.
 static void metal_goes_with_colours(void **state) {
-    static const width_case cases[] = {{"leadr", 0.03, {0.6, 0.6}, true},
-                                       {"moments", 0.05, {0.6, 0.6}, true}};
+    static const width_case cases[] = {{"leadr", 0.03, {0.6, 0.6}, false, true},
+                                       {"moments", 0.05, {0.6, 0.6}, false, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
 }
@@ -102,6 +118,7 @@ static void metal_goes_with_colours(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_place_has_its_own_width),
+        cmocka_unit_test(maps_wrap_each_by_itself),
         cmocka_unit_test(metal_goes_with_colours),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
