@@ -215,8 +215,13 @@ base_material footprint_material(surface_point surface, vec3 normal, map_area ar
     base_material base;
     base.normal = normal;
     base.diffuse = last.rgb;
-    if (VERTEX_COLOUR)
-        base.diffuse *= surface.colour.rgb;
+    if (VERTEX_COLOUR) {
+        // Of d (1 - m)(1 - F0), which the map has, F0's part d m is tinted, too.
+        vec3 tint = surface.colour.rgb;
+        base.diffuse *= tint;
+        if (MODEL == MODEL_MICROFACET)
+            base.diffuse += (1.0 / max(tint, vec3(1e-3)) - 1.0) * covered_by_metal(surface, area);
+    }
     base.specular = vec3(0.0); // each bin has its own
     base.width = 1.0;          // each bin has its own
     return base;

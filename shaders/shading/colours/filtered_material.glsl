@@ -98,6 +98,20 @@ vec3 diffuse_of_means(metal_means means, vec3 specular) {
            max(1.0 - specular, vec3(0.05));
 }
 
+// The mean of c^2 m (1 - m), which tells half metal from metal beside paint. What it covers is
+// taken to have the colour of the metal, and is no more than there is.
+vec3 covered_by_metal(surface_point surface, map_area lobes) {
+    if (METAL_MEANS == METAL_MEANS_NONE) {
+        vec3 colour = material.base_colour.rgb * surface.colour.rgb *
+                      filtered_base_colour(surface, lobes).rgb;
+        return colour * colour * (material.metallic * (1.0 - material.metallic));
+    }
+    metal_means means = fetch_metal_means(surface, lobes);
+    vec3 colour = means.metal / max(means.share, 1e-3);
+    return colour * clamp(colour * (means.share - means.square), vec3(0.0),
+                          max(means.colour - means.metal, vec3(0.0)));
+}
+
 // As wide as one lobe of the mean alpha.
 void take_width(inout base_material base, surface_point surface) {
     if (WIDTHS_APART)

@@ -87,7 +87,18 @@ typedef struct metal_case {
     bool coloured;
     double metallic, tint; ///< factors of the material
     uint32_t finer;        ///< as add_maps
+    bool by_vertices;      ///< the tint is that of the mesh, in bins of their own colours
 } metal_case;
+
+/// Gives the vertices the colour that the material has.
+static void tint_mesh(lobe_scene *scene, float tint) {
+    for (int j = 0; j < 3; j++)
+        scene->materials[0].base_colour[j] = 1;
+    for (size_t i = 0; i < scene->meshes[0].vertex_count; i++)
+        for (int j = 0; j < 3; j++)
+            scene->meshes[0].vertices[i].colour[j] = tint;
+    scene->meshes[0].has_colour = true;
+}
 
 /// The viewer is above, and the light at an angle from there. World: y is up.
 static void check_case(fixture *f, const metal_case *tested) {
@@ -100,10 +111,15 @@ static void check_case(fixture *f, const metal_case *tested) {
     scene_add_square(scene, &material, 40, NULL);
     scene_look_from(scene, (double[]){sin(0.1), cos(0.1), 0}, 0.2);
     scene_add_sun(scene, (double[]){0, 1, 0}, 1);
+    if (tested->by_vertices)
+        tint_mesh(scene, (float)tested->tint);
     scene_end(scene);
     for (int i = 0; i < 3; i++) {
         const double angle = angles[i] * M_PI / 180;
-        const picture_request request = {.filter = tested->filter, .width = 1, .height = 1};
+        const picture_request request = {.filter = tested->filter,
+                                         .settings = {tested->by_vertices ? "colour=bins" : NULL},
+                                         .width = 1,
+                                         .height = 1};
         double expected[3];
         scene->lights[0].direction[0] = (float)-sin(angle);
         scene->lights[0].direction[1] = (float)-cos(angle);
@@ -124,9 +140,18 @@ static void check_case(fixture *f, const metal_case *tested) {
 /// Of mean colour times mean metal, the highlight is 0.6 of this in red, and 1.2 times in blue.
 static void gold_between_paint_is_the_mean_of_its_texels(void **state) {
     static const metal_case cases[] = {
-        {"toksvig", true, 1, 1, 1},   {"lean", true, 1, 1, 1},       {"lobes", true, 1, 1, 1},
-        {"toksvig", true, 1, 0.5, 1}, {"toksvig", false, 1, 0.9, 1}, {"toksvig", true, 1, 1, 3},
+        {"toksvig", true, 1, 1, 1, false},    {"lean", true, 1, 1, 1, false},
+        {"lobes", true, 1, 1, 1, false},      {"toksvig", true, 1, 0.5, 1, false},
+        {"toksvig", false, 1, 0.9, 1, false}, {"toksvig", true, 1, 1, 3, false},
     };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        check_case(*state, &cases[i]);
+}
+
+/// Half metal covers half of a colour: what it lets through is brighter under a dark tint.
+static void a_mesh_tints_half_metal(void **state) {
+    static const metal_case cases[] = {{"moments", true, 0.5, 0.4, 1, true},
+                                       {"moments", false, 0.5, 0.4, 1, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
 }
@@ -178,6 +203,7 @@ static void what_a_mask_cuts_is_no_metal(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gold_between_paint_is_the_mean_of_its_texels),
+        cmocka_unit_test(a_mesh_tints_half_metal),
         cmocka_unit_test(what_a_mask_cuts_is_no_metal),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
