@@ -10,8 +10,8 @@
 
 layout(constant_id = SPECIALISE_SHADOWS) const bool SHADOWS = false;
 
-layout(set = 0, binding = 13) uniform sampler2DArray shadow_slopes;
-layout(set = 0, binding = 14) uniform sampler2DArray shadow_maps;
+layout(set = 0, binding = 13) uniform texture2DArray shadow_slopes;
+layout(set = 0, binding = 14) uniform texture2DArray shadow_maps;
 layout(set = 0, binding = 15, std430) readonly buffer shadow_block { shadow_view shadow_views[]; };
 
 // Which of six views looks along a direction.
