@@ -3,14 +3,18 @@
 #include <string.h>
 
 /// A mask may cut by the alpha of the host's vertices, also where its material alone keeps all:
-/// with colours they are the host's to give.
+/// with colours they are the host's to give. Its texture coordinates may be anywhere: these leave
+/// every map, on a line, which says nothing about how densely they lie.
 static void fill_mesh(material_scene *scene, bool vertex_colours) {
     static const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const float coordinates[3] = {-1e6f, 0, 1e6f};
     for (uint32_t i = 0; i < 3; i++) {
         lobe_scene_vertex *vertex = &scene->vertices[i];
         *vertex = (lobe_scene_vertex){
             .normal = {0, 0, 1}, .tangent = {1, 0, 0, 1}, .colour = {1, 1, 1, 1}};
         memcpy(vertex->position, corners[i], sizeof corners[i]);
+        for (int axis = 0; axis < 4; axis++)
+            vertex->texture_coordinates[axis / 2][axis % 2] = coordinates[i];
         scene->indices[i] = i;
     }
     scene->mesh = (lobe_mesh){.name = "surface of the host",

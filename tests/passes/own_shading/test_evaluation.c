@@ -1,6 +1,6 @@
 // A compute pipeline of a host evaluates what lobe filters, on the host's device: lights at once
-// are as one by one, changed texels reach a pipeline and descriptors that stay as they are, and
-// masks cut by the host's own vertex colours.
+// are as one by one, changed texels reach a pipeline and descriptors that stay as they are, masks
+// cut by the host's own vertex colours, and maps of one material wrap each by itself.
 
 #include "tests/passes/support/fixture.h"
 
@@ -258,6 +258,36 @@ static void masks_cut_by_the_alpha_of_vertices(void **state) {
     close_subject(&s);
 }
 
+/// Beyond the maps' first tile, a mirrored one runs backwards beside one that repeats, as if its
+/// transform did so. Away from the tile's edges, where neighbours differ.
+static void maps_wrap_each_by_itself(void **state) {
+    (void)state;
+    subject s;
+    host_evaluation e[2] = {{0}};
+    result results[2][POINTS];
+    open_subject(&s, "lean", evaluation_lean, sizeof evaluation_lean);
+    lobe_material *material = &s.scene->materials[0];
+    lobe_texture_use *widths = &material->metallic_roughness_map;
+    *widths = scene_add_map(s.scene, random_map(MAP, MAP, 0.2, 1, 13));
+    material->roughness = material->metallic = 1;
+    material->normal_map.transform[0][2] = 1;
+    for (int mirrored = 0; mirrored < 2; mirrored++) {
+        widths->wrap_u = mirrored ? LOBE_SCENE_WRAP_MIRROR : LOBE_SCENE_WRAP_REPEAT;
+        widths->transform[0][0] = mirrored ? 1 : -1;
+        widths->transform[0][2] = 1;
+        lobe_maps *maps = make_maps(&s, NULL);
+        evaluate(&s, maps, &e[mirrored], results[mirrored]);
+        host_evaluation_end(&e[mirrored]);
+        lobe_maps_destroy(&maps);
+    }
+    for (int i = 0; i < POINTS; i++)
+        for (int channel = 0; i % 8 >= 3 && i % 8 <= 5 && channel < 3; channel++) {
+            const float expected = results[0][i].one_by_one[channel];
+            assert_float_equal(results[1][i].one_by_one[channel], expected, 1e-4f * expected);
+        }
+    close_subject(&s);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Waves
 
@@ -358,6 +388,7 @@ int main(void) {
         cmocka_unit_test(an_image_of_the_host_is_read_in_place),
         cmocka_unit_test(encodings_reach_the_hosts_shader),
         cmocka_unit_test(masks_cut_by_the_alpha_of_vertices),
+        cmocka_unit_test(maps_wrap_each_by_itself),
         cmocka_unit_test(waves_reach_the_hosts_shader),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
