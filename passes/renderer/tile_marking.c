@@ -5,6 +5,7 @@
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/tile_knobs.h"
 #include "passes/renderer/shading.h"
+#include "passes/renderer/surfaces/deferral.h"
 #include "passes/renderer/surfaces/surfaces.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/frame.h"
@@ -101,7 +102,7 @@ typedef struct marking {
     bool deferred; ///< surfaces come from their picture
 } marking;
 
-static void draw_batch(const marking *m, uint32_t index) {
+static void draw_batch(const marking *m, uint32_t index, bool writes_depth) {
     const filter_context *context = &m->r->context;
     const device_scene *scene = context->scene;
     const instance_batch *batch = &m->r->renderer->draws.batches[index];
@@ -130,7 +131,7 @@ static void draw_batch(const marking *m, uint32_t index) {
         .fragment_shader = "maps/tile_marking.frag",
         .cull = passes_batch_cull(scene, batch),
         .depth_test = true,
-        .depth_write = !material->masked,
+        .depth_write = writes_depth && !material->masked,
         .constants = &constants,
         .constants_size = sizeof constants,
         .specialisation = list.items,
@@ -155,29 +156,24 @@ static bool is_drawn(const marking *m, uint32_t index) {
     return passes_surfaces_show(context, &m->r->surfaces, batch, m->deferred);
 }
 
-/// What the picture holds hides the others.
-static lobe_resource begin_depth(const rendering *r, const shading_targets *targets) {
-    lobe_graph *graph = r->context.graph;
-    const lobe_resource depth =
-        lobe_graph_image(graph, &(lobe_image_description){.name = "depth of tiles",
-                                                          .format = LOBE_FORMAT_D32_FLOAT,
-                                                          .width = r->width,
-                                                          .height = r->height});
-    if (!r->surfaces.present)
-        return depth;
-    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "depth_copy");
-    return lobe_pass_copy(pass, targets->depth, (lobe_range){0}, depth, (lobe_range){0});
+static lobe_resource own_depth(const rendering *r) {
+    return lobe_graph_image(r->context.graph,
+                            &(lobe_image_description){.name = "depth of tiles",
+                                                      .format = LOBE_FORMAT_D32_FLOAT,
+                                                      .width = r->width,
+                                                      .height = r->height});
 }
 
-static void attach_depth(marking *m, rendering *r, const shading_targets *targets) {
-    if (m->deferred)
-        r->surfaces.numbers = lobe_pass_depth(
-            m->pass, &(lobe_attachment){.resource = r->surfaces.numbers, .load = LOBE_LOAD_KEEP});
-    else
+/// What surfaces hold hides the others, by the depth that shading goes on with.
+static void attach_depth(marking *m, rendering *r, shading_targets *targets) {
+    if (!r->surfaces.present) {
         (void)lobe_pass_depth(
-            m->pass,
-            &(lobe_attachment){.resource = begin_depth(r, targets),
-                               .load = r->surfaces.present ? LOBE_LOAD_KEEP : LOBE_LOAD_CLEAR});
+            m->pass, &(lobe_attachment){.resource = own_depth(r), .load = LOBE_LOAD_CLEAR});
+        return;
+    }
+    lobe_resource *depth = m->deferred ? &r->surfaces.numbers : &targets->depth;
+    *depth =
+        lobe_pass_depth(m->pass, &(lobe_attachment){.resource = *depth, .load = LOBE_LOAD_KEEP});
 }
 
 static bool draws_any(const marking *m) {
@@ -187,8 +183,22 @@ static bool draws_any(const marking *m) {
     return false;
 }
 
+/// The depth of surfaces is tested alone: shading has yet to draw what lies before them.
+static void draw_batches(const marking *m) {
+    const rendering *r = m->r;
+    const bool over_surfaces = r->surfaces.present && !m->deferred;
+    for (uint32_t i = 0; i < r->renderer->draws.batch_count; i++) {
+        if (!is_drawn(m, i))
+            continue;
+        if (!over_surfaces || r->surfaces.open)
+            draw_batch(m, i, true);
+        if (over_surfaces && !passes_surfaces_hold(&r->context, &r->renderer->draws.batches[i]))
+            draw_batch(m, i, false);
+    }
+}
+
 static lobe_resource draw_marks(rendering *r, bool deferred, lobe_resource frame,
-                                const shading_targets *targets, lobe_resource marks) {
+                                shading_targets *targets, lobe_resource marks) {
     marking m = {.r = r, .deferred = deferred};
     if (!draws_any(&m))
         return marks;
@@ -201,9 +211,7 @@ static lobe_resource draw_marks(rendering *r, bool deferred, lobe_resource frame
     lobe_pass_read(m.pass, &(lobe_binding){.name = "surfaces", .resource = layers});
     passes_shared_knobs_bind(&r->context, m.pass);
     marks = lobe_pass_modify(m.pass, &(lobe_binding){.name = "mark_block", .resource = marks});
-    for (uint32_t i = 0; i < r->renderer->draws.batch_count; i++)
-        if (is_drawn(&m, i))
-            draw_batch(&m, i);
+    draw_batches(&m);
     return marks;
 }
 

@@ -131,8 +131,9 @@ typedef struct lobe_render_target {
     /// D32_FLOAT, reversed: near_plane / distance along the view, so 1 at the near plane and 0 at
     /// infinity. Of an orthographic camera it falls linearly, from 1 at the near plane to 0 at 1.01
     /// times the distance of the farthest corner of the scene's bounds, which displaced geometry
-    /// widens on all sides by its largest height. NULL: an image of lobe's own; the reference
-    /// requires that.
+    /// widens on all sides by its largest height. More than 64 lights (16, with
+    /// normal_mapping=microfacet) need it to have VK_IMAGE_USAGE_TRANSFER_SRC_BIT. NULL: an image
+    /// of lobe's own; the reference requires that.
     const lobe_vulkan_image *depth;
     /// Receives motion, converted to its format of two or more channels (R16G16_SFLOAT), and makes
     /// lobe compute it: see lobe_render_motion. NULL: none; the reference requires that.

@@ -253,6 +253,52 @@ static void several_samples_are_drawn_over_what_the_host_drew(void **state) {
     lobe_frame_free(&expected);
 }
 
+/// A square over another whose mask lets it through.
+static lobe_scene *masked_scene(void) {
+    static const float raised[16] = {
+        [0] = 1, [5] = 1, [10] = 1, [12] = 0.5f, [13] = 0.3f, [15] = 1};
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0);
+    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.4, 131));
+    scene_add_square(scene, &material, 1, NULL);
+    material.base_colour_map = scene_add_map(scene, random_map(32, 32, 0, 1, 132));
+    material.alpha_mask = true;
+    material.alpha_cutoff = 0.5f;
+    scene_add_square(scene, &material, 1, raised);
+    scene_look_down(scene, 3);
+    scene_end(scene);
+    return scene;
+}
+
+/// The mask is shaded with its triangles, over the depth of the surfaces that are shaded before, in
+/// an image that can only be drawn into.
+static void tiles_are_marked_over_the_hosts_depth(void **state) {
+    static const char *const deferred[] = {"built=seen", "shading=deferred", NULL};
+    host_fixture *f = *state;
+    lobe_scene *scene = masked_scene();
+    const lobe_settings settings = settings_of(filter_named("lean"), deferred);
+    lobe_render_parameters parameters = {
+        .filter = filter_named("lean"), .settings = &settings, .width = SIZE, .height = SIZE};
+    assert_int_equal(lobe_renderer_set_scene(f->passes.renderer, scene), LOBE_OK);
+    lobe_vulkan_image colour = lend(&f->colour, colour_usage, VK_IMAGE_LAYOUT_UNDEFINED);
+    lobe_vulkan_image depth =
+        lend(&f->depth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_LAYOUT_UNDEFINED);
+    depth.final_layout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+    const lobe_render_target target = {.radiance = &colour, .depth = &depth};
+    parameters.host.target = &target;
+    lobe_frame frame = render(f, &parameters);
+    lobe_image image = host_texels(f, &f->colour);
+    lobe_frame_free(&frame);
+    parameters.host.target = NULL;
+    parameters.settings = NULL;
+    frame = render(f, &parameters);
+    assert_same_bits(&image, &frame.radiance);
+    lobe_frame_free(&frame);
+    lobe_image_free(&image);
+    assert_int_equal(lobe_renderer_set_scene(f->passes.renderer, f->scene), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 /// A visible environment is treated like any background.
 static void the_environment_stays_behind_the_hosts_background(void **state) {
     static const float green[4] = {0, 0.5f, 0, 1};
@@ -555,6 +601,7 @@ int main(void) {
         cmocka_unit_test(lobe_draws_over_what_the_host_drew),
         cmocka_unit_test(many_lights_are_drawn_over_what_the_host_drew),
         cmocka_unit_test(several_samples_are_drawn_over_what_the_host_drew),
+        cmocka_unit_test(tiles_are_marked_over_the_hosts_depth),
         cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
         cmocka_unit_test(formats_of_displays_are_encoded),
         cmocka_unit_test(frames_in_flight_are_those_delivered),
