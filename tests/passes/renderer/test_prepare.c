@@ -154,7 +154,8 @@ static lobe_scene *squares(uint32_t count) {
 
 /// Whichever way their surfaces are shaded (knob shading).
 static void prepared_materials_serve_larger_scenes(void **state) {
-    static const char *const settings[][3] = {{"bins=2"}, {"bins=2", "samples=2"}};
+    static const char *const settings[][3] = {
+        {"bins=2"}, {"bins=2", "samples=2"}, {"bins=2", "built=seen"}};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         fixture own = start(*state);
         lobe_scene *few = squares(1), *many = squares(128);
