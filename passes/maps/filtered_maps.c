@@ -119,26 +119,17 @@ static lobe_resource filtered_image(const filter_context *context, const device_
     return reduced.resource;
 }
 
-/// The colours that a material's mask keeps; once for all instances.
-static lobe_resource masked_colours(const filter_context *context, uint32_t index) {
-    lobe_resource *masked = &context->images->masked[index];
-    if (masked->version != 0)
-        return *masked;
-    reduced_map map = passes_mask_coverage(context, index);
-    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
-    *masked = map.resource;
-    return map.resource;
-}
+typedef reduced_map map_maker(const filter_context *context, uint32_t material);
 
-/// Where a material is metal; once for all instances.
-static lobe_resource metal_means(const filter_context *context, uint32_t index) {
-    lobe_resource *metal = &context->images->metal[index];
-    if (metal->version != 0)
-        return *metal;
-    reduced_map map = passes_metal_means(context, index);
-    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
-    *metal = map.resource;
-    return map.resource;
+/// One of the maps of the scene's materials, which all instances of a material share.
+static lobe_resource shared_map(const filter_context *context, uint32_t index, lobe_resource *maps,
+                                map_maker *make, lobe_format format) {
+    if (maps[index].version == 0) {
+        const reduced_map map = make(context, index);
+        context->images->bytes += passes_reduced_map_bytes(&map, format);
+        maps[index] = map.resource;
+    }
+    return maps[index];
 }
 
 static void bind_metal_means(const filter_context *context, uint32_t index,
@@ -148,20 +139,10 @@ static void bind_metal_means(const filter_context *context, uint32_t index,
     passes_appearance_bind(
         appearance, "metal_map",
         kind == METAL_MEANS_NONE ? lobe_graph_import_texture(context->graph, context->scene->white)
-                                 : metal_means(context, index),
+                                 : shared_map(context, index, context->images->metal,
+                                              passes_metal_means, LOBE_FORMAT_RGBA16_FLOAT),
         passes_filtered_map_sampler(context, material, passes_metal_means_lie_as(material)));
     passes_appearance_specialise(appearance, SPECIALISE_METAL_MEANS, kind);
-}
-
-/// The widths of lobes that lie apart from the normals; once for all instances.
-static lobe_resource width_means(const filter_context *context, uint32_t index) {
-    lobe_resource *widths = &context->images->widths[index];
-    if (widths->version != 0)
-        return *widths;
-    reduced_map map = passes_width_means(context, index);
-    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT);
-    *widths = map.resource;
-    return map.resource;
 }
 
 static void bind_width_means(const filter_context *context, uint32_t index,
@@ -169,21 +150,11 @@ static void bind_width_means(const filter_context *context, uint32_t index,
     const device_material *material = &context->scene->materials[index];
     const bool apart = passes_widths_lie_apart(material);
     passes_appearance_bind(appearance, "width_means_map",
-                           apart ? width_means(context, index)
+                           apart ? shared_map(context, index, context->images->widths,
+                                              passes_width_means, LOBE_FORMAT_RGBA32_FLOAT)
                                  : lobe_graph_import_texture(context->graph, context->scene->white),
                            passes_filtered_map_sampler(context, material, MAP_WIDTH));
     passes_appearance_specialise(appearance, SPECIALISE_WIDTHS_APART, apart);
-}
-
-/// How colours go with normals; once for all instances.
-static lobe_resource colour_normals(const filter_context *context, uint32_t index) {
-    lobe_resource *normals = &context->images->normals[index];
-    if (normals->version != 0)
-        return *normals;
-    reduced_map map = passes_colour_normals(context, index);
-    context->images->bytes += passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT);
-    *normals = map.resource;
-    return map.resource;
 }
 
 static void bind_colour_normals(const filter_context *context, uint32_t index,
@@ -195,7 +166,8 @@ static void bind_colour_normals(const filter_context *context, uint32_t index,
                               (has_map || material->colours.was_open);
     passes_appearance_bind(
         appearance, "colour_normal_map",
-        has_map ? colour_normals(context, index)
+        has_map ? shared_map(context, index, context->images->normals, passes_colour_normals,
+                             LOBE_FORMAT_RGBA16_FLOAT)
                 : lobe_graph_import_texture(context->graph, context->scene->white),
         passes_filtered_map_sampler(context, material, passes_lobe_grid(material).map));
     passes_appearance_bind(appearance, "correlation_block",
@@ -215,7 +187,8 @@ static void bind_mask_layers(const filter_context *context, uint32_t index, bool
                   thresholds = lobe_graph_import_buffer(context->graph, material->map_constants);
     if (varies) {
         const struct mask_thresholds values = passes_mask_thresholds(context->scene, material);
-        map = masked_colours(context, index);
+        map = shared_map(context, index, context->images->masked, passes_mask_coverage,
+                         LOBE_FORMAT_RGBA16_FLOAT);
         thresholds =
             lobe_graph_upload(context->graph, "thresholds of a mask", &values, sizeof values);
     }
@@ -231,7 +204,8 @@ static lobe_resource filtered_map(const filter_context *context, uint32_t index,
         return filtered_image(context, material, map);
     return passes_mask_varies(context->scene, material)
                ? lobe_graph_import_texture(context->graph, context->scene->white)
-               : masked_colours(context, index);
+               : shared_map(context, index, context->images->masked, passes_mask_coverage,
+                            LOBE_FORMAT_RGBA16_FLOAT);
 }
 
 /// Maps of one texel are their own mean.

@@ -231,7 +231,9 @@ struct lobe_vulkan_submission {
     /// outside a render pass instance; there must be no semaphores then. Bound pipelines,
     /// descriptors and dynamic state are lost. The host submits it to lobe's queue, exactly once,
     /// before it begins the next frame of the same graph and before it changes textures or buffers
-    /// that the frame reads (those of the graph itself it may change at once).
+    /// that the frame reads (those of the graph itself it may change at once). lobe cannot wait for
+    /// such frames: with N in flight, the one recorded N frames ago must have finished before the
+    /// next begins.
     VkCommandBuffer commands;
 };
 

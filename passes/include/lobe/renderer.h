@@ -242,7 +242,8 @@ typedef struct lobe_render_host {
     /// waits and delivers. The reference always takes its samples and waits for them first; the
     /// submission then draws their mean into the target.
     const lobe_vulkan_submission *submission;
-    /// With `submission`: see lobe_graph_set_frames_in_flight; 0: 1.
+    /// With `submission`: see lobe_graph_set_frames_in_flight; 0: 1. For frames in command buffers
+    /// of the host, the host itself waits: see lobe_graph_submit.
     uint32_t frames_in_flight;
 } lobe_render_host;
 
