@@ -156,7 +156,7 @@ static bool are_inside(const float box[2][2], const lobe_texture_use *use) {
     return true;
 }
 
-/// The same of where this changes.
+/// Where this changes, maps that wrap differently may lie alike, or no longer do.
 static void find_inside(const device_scene *scene, device_material *material) {
     const uint32_t before = material->inside;
     material->inside = material->map_bits;
@@ -173,7 +173,7 @@ static void find_inside(const device_scene *scene, device_material *material) {
     material->parameter_version += material->inside != before;
 }
 
-/// The same of where this changes.
+/// Where this changes, all maps are made anew, too.
 static void find_mask(device_scene *scene, device_material *material) {
     const bool before = material->masked;
     material->masked = material->material->alpha_mask && ((before && scene->keeps_conclusions) ||

@@ -96,9 +96,13 @@ bool passes_specular_colour_varies(const device_material *material) {
            (material->metallic > 0 && material->maps[MAP_BASE_COLOUR].use);
 }
 
+bool passes_device_map_has_texels(const device_map *map) {
+    return map->use && map->width * map->height > 1;
+}
+
 bool passes_device_map_is_interpolated(const device_material *material, uint32_t index) {
     const device_map *map = &material->maps[index];
-    return map->use && !map->use->nearest && map->width * map->height > 1;
+    return passes_device_map_has_texels(map) && !map->use->nearest;
 }
 
 /// `sets`: bit MAP_...: the map is read by the second set.
@@ -111,13 +115,10 @@ static bool share_coordinates(const device_material *material, uint32_t a, uint3
            (wrap_alike || (material->inside >> a & material->inside >> b & 1) != 0);
 }
 
-static bool has_texels(const device_map *map) {
-    return map->use && map->width * map->height > 1;
-}
-
 static bool widths_lie_apart(const device_material *material, uint32_t second_coordinates) {
     return material->material->model == LOBE_MATERIAL_MICROFACET &&
-           has_texels(&material->maps[MAP_NORMAL]) && has_texels(&material->maps[MAP_WIDTH]) &&
+           passes_device_map_has_texels(&material->maps[MAP_NORMAL]) &&
+           passes_device_map_has_texels(&material->maps[MAP_WIDTH]) &&
            !share_coordinates(material, MAP_NORMAL, MAP_WIDTH, second_coordinates);
 }
 

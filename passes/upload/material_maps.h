@@ -27,7 +27,9 @@ lobe_resource passes_device_map_import(lobe_graph *graph, const device_scene *sc
 bool passes_specular_colour_varies(const device_material *material);
 /// How a map's texels are read, without interpolation between levels.
 lobe_sampler passes_device_map_sampler(const device_material *material, uint32_t map);
-/// Whether the material has the map, with more than one texel, and reads it interpolated.
+/// Whether the material has the map, with more than one texel.
+bool passes_device_map_has_texels(const device_map *map);
+/// Whether it also reads it interpolated.
 bool passes_device_map_is_interpolated(const device_material *material, uint32_t map);
 
 /// The grid of texels that a material's lobes come from: its normal map and its width map, unless

@@ -15,13 +15,9 @@ static const uint32_t inputs[] = {MAP_BASE_COLOUR, MAP_NORMAL, MAP_WIDTH};
 // ---------------------------------------------------------------------------------------------
 // What the host knows
 
-static bool has_texels(const device_map *map) {
-    return map->use && map->width * map->height > 1;
-}
-
 bool passes_colours_lie_like_normals(const device_material *material) {
-    return has_texels(&material->maps[MAP_BASE_COLOUR]) &&
-           has_texels(&material->maps[MAP_NORMAL]) &&
+    return passes_device_map_has_texels(&material->maps[MAP_BASE_COLOUR]) &&
+           passes_device_map_has_texels(&material->maps[MAP_NORMAL]) &&
            !(material->metallic_varies && passes_widths_lie_apart(material)) &&
            passes_lobe_grid_shares_coordinates(material, MAP_BASE_COLOUR);
 }

@@ -9,17 +9,13 @@
 #include "shaders/interface/material.h"
 #include "shaders/interface/specialisation.h"
 
-static bool has_texels(const device_map *map) {
-    return map->use && map->width * map->height > 1;
-}
-
 uint32_t passes_metal_means_lie_as(const device_material *material) {
     return passes_widths_lie_apart(material) ? MAP_WIDTH : passes_lobe_grid(material).map;
 }
 
 /// Whether a map lies as the means do.
 static bool lies_alike(const device_material *material, uint32_t map) {
-    return has_texels(&material->maps[map]) && passes_lobe_grid(material).use &&
+    return passes_device_map_has_texels(&material->maps[map]) && passes_lobe_grid(material).use &&
            passes_maps_share_coordinates(material, map, passes_metal_means_lie_as(material));
 }
 
