@@ -22,10 +22,10 @@
 #define METAL_LAYER_METAL  0 // E[s c m], E[s m^2]; with METAL_MEANS_ALONE E[s m], E[s], 0, E[s m^2]
 #define METAL_LAYER_COLOUR 1 // E[c], E[m], or under a mask E[s m], E[s], 0, 0; not with ..._ALONE
 
-// Layers of the map of widths that lie apart from normals (maps/width_means.comp): with v, c, kappa
-// and alpha a texel's variance in the Lambert plane, 1 - |r|, concentration and alpha, and s how
-// much it mirrors,
-#define WIDTH_LAYER_LOBES       0 // E[s / sqrt(v)], E[s v], E[s c], E[s]
+// Layers of the map of widths that lie apart from normals (maps/width_means.comp): with v and m a
+// texel's variance and mass in the Lambert plane, c, kappa and alpha its 1 - |r|, concentration and
+// alpha, and s how much it mirrors,
+#define WIDTH_LAYER_LOBES       0 // E[s m / sqrt(v)], E[s m v], E[s c], E[s m]
 #define WIDTH_LAYER_MICROFACETS 1 // E[s kappa], E[s alpha], E[s alpha^2], E[s]
 #define WIDTH_LAYERS            2
 

@@ -40,12 +40,11 @@ vec4 read_last_layer(map_area area) {
 
 // In place of the one that the map holds, where widths lie apart from the normals.
 void take_widths(inout plane_bin bin) {
-    uint kind = distribution_kind();
-    float mass = plane_mass(MODEL, kind, parameter_of_plane_variance(kind, own_variance()));
+    float mass;
+    own_width_in_plane(mass);
     bin.sharpness = max(drawn_widths.sharpness, 0.4);
     bin.mean_variance = drawn_widths.variance;
-    bin.mass *=
-        plane_mass(MODEL, kind, parameter_of_plane_variance(kind, bin.mean_variance)) / mass;
+    bin.mass *= drawn_widths.mass / mass;
 }
 
 // `mass_scale`: as read_last_layer gives it.

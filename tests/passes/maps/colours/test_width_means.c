@@ -15,6 +15,7 @@ typedef struct width_case {
     double roughness[2]; ///< of the map's left and right half
     bool mirrored;       ///< both maps are there twice, and the normals are not mirrored
     bool paint;          ///< every other texel of a chessboard is black paint, else all are metal
+    bool mixed;          ///< every other texel of a chessboard has the other half's roughness
 } width_case;
 
 static void add_maps(lobe_scene *scene, lobe_material *material, const width_case *tested) {
@@ -22,10 +23,11 @@ static void add_maps(lobe_scene *scene, lobe_material *material, const width_cas
                colours = map_image(LOBE_FORMAT_RGBA32_FLOAT, WIDTHS, WIDTHS);
     for (uint32_t i = 0; i < WIDTHS * WIDTHS; i++) {
         const uint32_t x = i % WIDTHS, y = i / WIDTHS;
-        const bool metal = !tested->paint || (x + y) % 2 == 0;
+        const bool odd = (x + y) % 2 != 0, metal = !tested->paint || !odd;
+        const bool right = (x >= WIDTHS / 2) != (tested->mixed && odd);
         float *width = (float *)widths.texels + (size_t)4 * i;
         float *colour = (float *)colours.texels + (size_t)4 * i;
-        width[1] = (float)tested->roughness[x >= WIDTHS / 2];
+        width[1] = (float)tested->roughness[right];
         width[2] = metal ? 1 : 0;
         for (int j = 0; j < 3; j++)
             colour[j] = metal ? 1 - 0.3f * (float)j : 0.02f;
@@ -87,13 +89,13 @@ static void check_case(fixture *f, const width_case *tested) {
 /// Read where the relief lies, each half would have the roughness of both.
 static void each_place_has_its_own_width(void **state) {
     static const width_case cases[] = {
-        {"toksvig", 0.2, {0.45, 0.95}, false, false},
-        {"lean", 0.2, {0.45, 0.95}, false, false},
-        {"leadr", 0.03, {0.45, 0.95}, false, false},
-        {"multi_leadr", 0.03, {0.45, 0.95}, false, false},
-        {"lobes", 0.2, {0.45, 0.95}, false, false},
-        {"moments", 0.03, {0.45, 0.95}, false, false},
-        {"mixture", 0.03, {0.45, 0.95}, false, false},
+        {"toksvig", 0.2, {0.45, 0.95}, false, false, false},
+        {"lean", 0.2, {0.45, 0.95}, false, false, false},
+        {"leadr", 0.03, {0.45, 0.95}, false, false, false},
+        {"multi_leadr", 0.03, {0.45, 0.95}, false, false, false},
+        {"lobes", 0.2, {0.45, 0.95}, false, false, false},
+        {"moments", 0.03, {0.45, 0.95}, false, false, false},
+        {"mixture", 0.03, {0.45, 0.95}, false, false, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
@@ -101,16 +103,24 @@ static void each_place_has_its_own_width(void **state) {
 
 /// As if both were mirrored, the right side would have the roughness beside it.
 static void maps_wrap_each_by_itself(void **state) {
-    static const width_case cases[] = {{"leadr", 0.05, {0.45, 0.95}, true, false},
-                                       {"moments", 0.05, {0.45, 0.95}, true, false}};
+    static const width_case cases[] = {{"leadr", 0.05, {0.45, 0.95}, true, false, false},
+                                       {"moments", 0.05, {0.45, 0.95}, true, false, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
 }
 
 /// Of mean colours times mean metal, half of the highlight would be missing.
 static void metal_goes_with_colours(void **state) {
-    static const width_case cases[] = {{"leadr", 0.03, {0.6, 0.6}, false, true},
-                                       {"moments", 0.05, {0.6, 0.6}, false, true}};
+    static const width_case cases[] = {{"leadr", 0.03, {0.6, 0.6}, false, true, false},
+                                       {"moments", 0.05, {0.6, 0.6}, false, true, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        check_case(*state, &cases[i]);
+}
+
+/// Broad lobes have more mass in the plane, and so more of a bin's width.
+static void broad_lobes_count_by_their_mass(void **state) {
+    static const width_case cases[] = {{"moments", 0.3, {0.45, 0.95}, false, false, true},
+                                       {"mixture", 0.3, {0.45, 0.95}, false, false, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         check_case(*state, &cases[i]);
 }
@@ -120,6 +130,7 @@ int main(void) {
         cmocka_unit_test(each_place_has_its_own_width),
         cmocka_unit_test(maps_wrap_each_by_itself),
         cmocka_unit_test(metal_goes_with_colours),
+        cmocka_unit_test(broad_lobes_count_by_their_mass),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
