@@ -12,6 +12,7 @@
 #include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
 #include "lib/lobe/dispersion.glsl"
+#include "lib/lobe/width_pair.glsl"
 
 #ifdef ENVIRONMENT
 #include "environment/reflection.glsl"
@@ -22,6 +23,7 @@ layout(constant_id = SPECIALISE_COARSEST) const uint COARSEST = 0;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
+layout(constant_id = SPECIALISE_WIDTH_LAYER) const uint WIDTH_LAYER = 0;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_DISPERSION;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
@@ -42,6 +44,9 @@ bool base_in_walk() {
 // Clusters with less of the footprint than this are skipped.
 const float LEAST_WEIGHT = 1e-5;
 
+// How many widths each cluster stands for.
+const int WIDTHS = WIDTH_LAYER != 0u ? 2 : 1;
+
 // The one lobe of all sectors is walked first.
 const int SECTOR_ALL = -1;
 const int SECTOR_END = 4;
@@ -51,9 +56,12 @@ struct appearance {
     base_material filtered; // averaged over the footprint
     map_area area;
     float base_share;       // [0, 1]: how much of the appearance is level 0
-    float mixture_scale;    // factor of the lobes' weights
-    float own_scale;        // the same for distributions of projected area one
+    float mixture_scale;    // factor of the distributions' weights, whose projected area is one
     float base_complement;  // mean 1 - |r| of the base lobes in the footprint
+    vec2 complements;       // 1 - |r| of the first WIDTHS, which stand for all of them
+    vec2 width_parts;       // and their parts
+    vec4 cluster_widths[2]; // sums of 1 - |r| in clusters
+    vec2 lobe_scales;       // factors of the weights of lobes about base lobes so wide
     float resultant_scale;  // of |r|: 1, unless widths lie apart
     float complement;       // 1 - |r| of the footprint's one lobe if it were about the normals
     float variance;         // of the macro-surface's normals, unless the mixture includes it
@@ -70,14 +78,14 @@ struct appearance {
     float level;
 };
 
-// One lobe of the mixture.
+// A lobe of the mixture, of the first WIDTHS widths.
 struct lobe {
     vec3 axis; // unit, in the mixtures' space
-    float concentration;
-    float weight; // share of the appearance times the lobe's peak
+    vec2 concentration;
+    vec2 weight; // share of the appearance times the lobe's peak
     // Of microfacets: the part with the base distribution's own shape.
-    float parameter; // of the distribution as broad as the lobe
-    float own_weight;
+    vec2 parameter; // of the distribution as broad as the lobe
+    vec2 own_weight;
 };
 
 // The state of a traversal.
@@ -126,12 +134,73 @@ vec4 fetch_mean(map_area area, out float coverage, out float weight) {
     return vec4(one.xyz / max(weight * (1.0 - complement), LEAST_WEIGHT), complement);
 }
 
+// Two widths with the footprint's moments of all.
+void take_widths(inout appearance fetched, float weight) {
+    vec3 powers = filtered_layer(mixture_map, fetched.area, WIDTH_LAYER).xyz;
+    width_pair pair = width_pair_of(powers / weight);
+    fetched.complements = pair.complements;
+    fetched.width_parts = pair.parts;
+}
+
+// What the walk needs of the clusters' own base lobes, once it goes beyond one cluster.
+void fetch_cluster_widths(inout appearance fetched) {
+    if (WIDTHS == 1 || SUBDIVISION == 0u)
+        return;
+    fetched.cluster_widths[0] = filtered_layer(mixture_map, fetched.area, WIDTH_LAYER + 1u);
+    if (SUBDIVISION > 1u)
+        fetched.cluster_widths[1] = filtered_layer(mixture_map, fetched.area, WIDTH_LAYER + 2u);
+}
+
+// The mean 1 - |r| of the base lobes in a cluster of this weight. `part`: as in the walk.
+float base_complement_of(appearance fetched, int sector, int part, float weight) {
+    if (WIDTHS == 1 || sector == SECTOR_ALL)
+        return fetched.base_complement;
+    if (SUBDIVISION < 2u)
+        return fetched.cluster_widths[0][sector] / max(weight, LEAST_WEIGHT);
+    int first = 2 * (sector % 2);
+    vec4 four = fetched.cluster_widths[sector / 2];
+    float sum = part == 0 ? four[first] + four[first + 1] : four[first + part - 1];
+    return sum / max(weight, LEAST_WEIGHT);
+}
+
+// The widths' parts where the mean 1 - |r| is `base`.
+vec2 width_parts_of(appearance fetched, float base) {
+    if (WIDTHS == 1)
+        return vec2(1.0, 0.0);
+    vec2 widths = fetched.complements;
+    float scale = dot(widths, fetched.width_parts) / max(fetched.base_complement, 1e-6);
+    float range = widths.y - widths.x;
+    float broad = range > 1e-3 * widths.y ? clamp((scale * base - widths.x) / range, 0.0, 1.0)
+                                          : fetched.width_parts.y;
+    return vec2(1.0 - broad, broad);
+}
+
+// 1 - |r| of lobes about base lobes of one width, where it is `complement` about those of all
+// widths, whose mean is `base`: the normals shorten all alike.
+float complement_of_width(appearance fetched, int width, float base, float complement) {
+    if (WIDTHS == 1)
+        return complement;
+    float shortened = (1.0 - complement) / max(1.0 - base, 1e-3);
+    return 1.0 - (1.0 - fetched.complements[width]) * min(shortened, 1.0);
+}
+
+// [0, 1]: the base lobes' share of a cluster's breadth, 1 / (1 + dispersion).
+float base_share_of_breadth(appearance fetched, float base, float complement) {
+    vec2 parts = width_parts_of(fetched, base);
+    float share = 0.0;
+    for (int width = 0; width < WIDTHS; ++width)
+        share += parts[width] /
+                 (1.0 + dispersion(fetched.complements[width],
+                                   complement_of_width(fetched, width, base, complement)));
+    return share;
+}
+
 // [0, 1]: how far a cluster must be refined. The measure is near 1 if one lobe is enough: |r| as in
-// the paper, or the base lobes' share of the lobe's breadth, 1 / (1 + dispersion).
-float refinement(float complement, float base_complement, float epsilon) {
+// the paper, or the base lobes' share of the lobe's breadth.
+float refinement(appearance fetched, float base, float complement, float epsilon) {
     float measure = THRESHOLD == THRESHOLD_LENGTH
                         ? 1.0 - complement
-                        : 1.0 / (1.0 + dispersion(base_complement, complement));
+                        : base_share_of_breadth(fetched, base, complement);
     return 1.0 - transition(measure, epsilon, filter_knobs.blend);
 }
 
@@ -147,10 +216,11 @@ lobe take_base_lobe(inout walk at, inout appearance fetched) {
     lobe result;
     result.axis = fetched.mixture_from_tangent *
                   rotate_from_pole(fetched.base.normal, material.lobe_direction[i].xyz);
-    result.concentration =
+    float concentration =
         base_lobe_concentration(DISTRIBUTION, widened_lobe_parameter(i, fetched.base));
-    result.weight = fetched.base_share * material.lobe_colour[i].w *
-                    von_mises_fisher_peak(result.concentration);
+    result.concentration = vec2(concentration);
+    result.weight = vec2(fetched.base_share * material.lobe_colour[i].w *
+                         von_mises_fisher_peak(concentration), 0.0);
     fetched.lobe_count += 1.0;
     return result;
 }
@@ -165,6 +235,23 @@ float base_complement_share(float complement, float base_complement) {
     return clamp(base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
 }
 
+// A cluster's lobe, about the base lobes of one width. `complement`: 1 - |r|; `share`: of the
+// appearance.
+void make_lobe(inout lobe result, appearance fetched, int width, float complement, float share) {
+    // The surface's curvature widens one lobe and many in the same way.
+    float breadth = widened_complement(complement, fetched.variance);
+    float concentration = concentration_from_complement(breadth);
+    float weight = fetched.lobe_scales[width] * share * von_mises_fisher_peak(concentration);
+    if (keeps_shape()) {
+        float own = base_complement_share(breadth, fetched.complements[width]);
+        result.parameter[width] = base_lobe_of_concentration(DISTRIBUTION, concentration);
+        result.own_weight[width] = own * share * fetched.mixture_scale;
+        weight *= 1.0 - own;
+    }
+    result.concentration[width] = concentration;
+    result.weight[width] = weight;
+}
+
 // The lobe of the next cluster; advances the traversal.
 lobe take_cluster(inout walk at, inout appearance fetched) {
     bool one = at.sector == SECTOR_ALL;
@@ -177,9 +264,10 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
         moment.xyz *= fetched.resultant_scale;
 
     float complement = resultant_complement(moment.xyz, moment.w);
+    float base = base_complement_of(fetched, at.sector, at.part, moment.w);
     float refine = 0.0;
     if ((one && SUBDIVISION > 0u) || (is_sector && SUBDIVISION > 1u))
-        refine = refinement(complement, fetched.base_complement,
+        refine = refinement(fetched, base, complement,
                             one ? filter_knobs.epsilon0 : filter_knobs.epsilon1);
     refine = moment.w > LEAST_WEIGHT ? refine : 0.0;
     if (root_from_mean())
@@ -189,16 +277,10 @@ lobe take_cluster(inout walk at, inout appearance fetched) {
                   (1.0 - refine) * moment.w;
     lobe result;
     result.axis = moment.xyz * inversesqrt(max(dot(moment.xyz, moment.xyz), 1e-30));
-    // The surface's curvature widens one lobe and many in the same way.
-    float breadth = widened_complement(complement, fetched.variance);
-    result.concentration = concentration_from_complement(breadth);
-    result.weight = fetched.mixture_scale * share * von_mises_fisher_peak(result.concentration);
-    if (keeps_shape()) {
-        float own = base_complement_share(breadth, fetched.base_complement);
-        result.parameter = base_lobe_of_concentration(DISTRIBUTION, result.concentration);
-        result.own_weight = own * share * fetched.own_scale;
-        result.weight *= 1.0 - own;
-    }
+    vec2 parts = width_parts_of(fetched, base);
+    for (int width = 0; width < WIDTHS; ++width)
+        make_lobe(result, fetched, width, complement_of_width(fetched, width, base, complement),
+                  parts[width] * share);
     fetched.lobe_count += share > LEAST_WEIGHT ? 1.0 : 0.0;
 
     at.root_share = one ? refine : at.root_share;
@@ -224,7 +306,7 @@ walk start_walk(appearance fetched) {
     at.root_share = 1.0;
     at.sector_share = 0.0;
     if (root_from_mean()) {
-        at.root_share = refinement(fetched.complement, fetched.base_complement,
+        at.root_share = refinement(fetched, fetched.base_complement, fetched.complement,
                                    filter_knobs.epsilon0);
         if (fetched.base_share < 1.0 && at.root_share >= 1.0)
             at.sector = 0;
@@ -233,11 +315,13 @@ walk start_walk(appearance fetched) {
 }
 
 float evaluate_lobe(lobe one, vec3 direction) {
-    float value = one.weight *
-                  exp(-0.5 * one.concentration * difference_squared(direction, one.axis));
-    if (keeps_shape())
-        value += one.own_weight *
-                 normal_distribution(DISTRIBUTION, one.axis, direction, one.parameter);
+    float value = 0.0, square = difference_squared(direction, one.axis);
+    for (int width = 0; width < WIDTHS; ++width) {
+        value += one.weight[width] * exp(-0.5 * one.concentration[width] * square);
+        if (keeps_shape())
+            value += one.own_weight[width] *
+                     normal_distribution(DISTRIBUTION, one.axis, direction, one.parameter[width]);
+    }
     return value;
 }
 
@@ -300,11 +384,16 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.base_complement = mean.w;
     // A mixture over some of the texels represents all of them.
     fetched.mixture_scale = (1.0 - fetched.base_share) / weight;
-    fetched.own_scale = fetched.mixture_scale;
+    fetched.complements = vec2(mean.w);
+    if (WIDTHS > 1)
+        take_widths(fetched, weight);
+    fetch_cluster_widths(fetched);
     // A distribution of normals is normalised to projected area one, a lobe to area one.
+    fetched.lobe_scales = vec2(fetched.mixture_scale);
     if (MODEL == MODEL_MICROFACET)
-        fetched.mixture_scale /=
-            von_mises_fisher_projected_area(concentration_from_complement(mean.w));
+        for (int width = 0; width < WIDTHS; ++width)
+            fetched.lobe_scales[width] /= von_mises_fisher_projected_area(
+                concentration_from_complement(fetched.complements[width]));
     fetched.diffuse_normal = mean.xyz * fetched.mixture_from_tangent;
     // Lobes about normals: their resultant is the product of the normals' and the base lobes'.
     fetched.complement = 1.0 - (1.0 - mean.w) * min(length(mean.xyz), 1.0);
@@ -393,21 +482,32 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
 }
 
 #ifdef ENVIRONMENT
-vec3 reflect_lobe(appearance fetched, surface_point surface, lobe one) {
+vec3 reflect_width(appearance fetched, surface_point surface, lobe one, int width) {
     vec3 axis = one.axis * fetched.mixture_from_tangent;
     half_vector_distribution round =
-        round_half_vectors(axis, one.concentration, surface.outgoing);
-    float mass = one.weight / von_mises_fisher_peak(one.concentration);
+        round_half_vectors(axis, one.concentration[width], surface.outgoing);
+    float mass = one.weight[width] / von_mises_fisher_peak(one.concentration[width]);
     if (MODEL == MODEL_HALF_VECTOR_LOBES)
         return mass * reflect_half_vectors(surface, round);
     // Undoes the normalisation to projected area one; GGX's tails are kept as in `moments`.
-    mass *= von_mises_fisher_projected_area(concentration_from_complement(fetched.base_complement));
+    mass *= von_mises_fisher_projected_area(
+        concentration_from_complement(fetched.complements[width]));
     base_material frame = fetched.filtered;
+    if (WIDTHS > 1)
+        frame.width = base_lobe_of_concentration(
+            DISTRIBUTION, concentration_from_complement(fetched.complements[width]));
     if (keeps_shape()) {
-        round = base_half_vectors(axis, one.parameter, surface.outgoing);
-        mass += one.own_weight;
+        round = base_half_vectors(axis, one.parameter[width], surface.outgoing);
+        mass += one.own_weight[width];
     }
     return mass * reflect_microfacets(surface, round, frame.specular, frame.width);
+}
+
+vec3 reflect_lobe(appearance fetched, surface_point surface, lobe one) {
+    vec3 sum = vec3(0.0);
+    for (int width = 0; width < WIDTHS; ++width)
+        sum += reflect_width(fetched, surface, one, width);
+    return sum;
 }
 
 vec3 reflect_mixture(inout appearance fetched, surface_point surface) {

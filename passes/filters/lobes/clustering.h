@@ -13,6 +13,7 @@ typedef struct mixture_map {
     lobe_map_space space; ///< tangent, object or camera
     bool weighted;        ///< texels count by what they mirror
     uint32_t kept_layer;  ///< layer of the coverage, where the weights are not that; 0: none
+    uint32_t width_layer; ///< the first of those of the widths of base lobes; 0: none
 } mixture_map;
 
 /// What is wanted of a mixture map.
@@ -21,11 +22,12 @@ typedef struct mixture_request {
     uint32_t subdivision; ///< [0, 2]
     uint32_t clusters;    ///< CLUSTERS_... of shaders/interface/cluster.h
     bool mean;            ///< also the layer of the mean
+    bool widths;          ///< also those of widths
 } mixture_request;
 
 /// Declares a mixture map for an instance's material and adds the passes that fill level 0:
 /// characteristic vectors (Xu et al. 2017, Eqs. 8-14) and clustering by direction (section 3.2).
-/// `subdivision` and `mean` say which layers shading will read. The material has a normal or width
+/// The request says which layers shading will read. The material has a normal or width
 /// map.
 mixture_map passes_lobe_clustering(const filter_context *context, size_t instance,
                                    const mixture_request *request);

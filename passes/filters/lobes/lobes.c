@@ -16,6 +16,7 @@
 static const char *const spaces[] = {"auto", "tangent", "object", "camera", NULL};
 static const char *const subdivisions[] = {"auto", "0", "1", "2", NULL};
 static const char *const clusters[] = {"turned", "paper", NULL};
+static const char *const widths[] = {"two", "one", NULL};
 static const char *const thresholds[] = {"dispersion", "length", NULL};
 
 static const filter_knob space_knob = {
@@ -58,6 +59,18 @@ static const filter_knob threshold_knob = {
     .feeds = KNOB_FEEDS_CONSTANT(SPECIALISE_THRESHOLD),
     .decides_slots = true,
 };
+static const filter_knob widths_knob = {
+    .description = {.name = "widths",
+                    .summary =
+                        "how many widths of base lobes a cluster stands for where they vary: "
+                        "two, with the moments of those in the footprint; or, as in the "
+                        "paper, one",
+                    .kind = LOBE_KNOB_CHOICE,
+                    .maximum = 1,
+                    .choices = widths,
+                    .sweep = "one"},
+    .decides_slots = true,
+};
 static const filter_knob epsilon0_knob = {
     .description = {.name = "epsilon0",
                     .summary = "below this, one lobe becomes four",
@@ -81,11 +94,22 @@ static const filter_knob blend_knob = {
     .feeds = KNOB_FEEDS_FILTER(lobes_knobs, blend),
 };
 static const filter_knob *const knobs[] = {
-    &space_knob,          &subdivision_knob,        &clusters_knob,
-    &threshold_knob,      &epsilon0_knob,           &epsilon1_knob,
-    &blend_knob,          &passes_knob_probes,      &passes_knob_anisotropy,
-    &passes_knob_bias,    &passes_knob_level_blend, &passes_knob_curvature,
-    &passes_knob_storage, &passes_knob_built,       NULL,
+    &space_knob,
+    &subdivision_knob,
+    &clusters_knob,
+    &threshold_knob,
+    &widths_knob,
+    &epsilon0_knob,
+    &epsilon1_knob,
+    &blend_knob,
+    &passes_knob_probes,
+    &passes_knob_anisotropy,
+    &passes_knob_bias,
+    &passes_knob_level_blend,
+    &passes_knob_curvature,
+    &passes_knob_storage,
+    &passes_knob_built,
+    NULL,
 };
 
 /// The space that the user chose, or else the material's. Always tangent if the mesh's texture
@@ -141,6 +165,12 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
            is_in_tangent_space(context, material);
 }
 
+/// Whether shading takes two widths in place of the base lobes' mean width.
+static bool needs_widths(const filter_context *context, const device_material *material) {
+    return passes_device_map_has_texels(&material->maps[MAP_WIDTH]) &&
+           !passes_widths_lie_apart(material) && passes_knob_choice(context, &widths_knob) == 0;
+}
+
 /// How many times the least error serves as well, for the choice of a subdivision. Clusters that
 /// are split by their length are drawn more coarsely than the choice measures, so finer ones gain
 /// less.
@@ -157,7 +187,8 @@ static lobe_result prepare(const filter_context *context, uint32_t material, voi
         return LOBE_ERROR_OUT_OF_MEMORY;
     prepared->subdivision = passes_subdivision_choose(
         context->scene, &context->scene->materials[material],
-        passes_knob_choice(context, &clusters_knob), tolerance_of(context));
+        passes_knob_choice(context, &clusters_knob),
+        needs_widths(context, &context->scene->materials[material]) ? 2 : 1, tolerance_of(context));
     *slot = prepared;
     return LOBE_OK;
 }
@@ -243,6 +274,7 @@ static void specialise_mixture(const lobe_material *material, const mixture_map 
     passes_appearance_specialise(appearance, SPECIALISE_MEAN_LAYER, mixture->mean_layer);
     passes_appearance_specialise(appearance, SPECIALISE_WEIGHTED, mixture->weighted);
     passes_appearance_specialise(appearance, SPECIALISE_KEPT_LAYER, mixture->kept_layer);
+    passes_appearance_specialise(appearance, SPECIALISE_WIDTH_LAYER, mixture->width_layer);
     passes_appearance_specialise(appearance, SPECIALISE_SPACE,
                                  mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
                                  : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
@@ -259,7 +291,8 @@ static mixture_map build_mixture(const filter_context *context, size_t instance,
         .space = space,
         .subdivision = subdivision,
         .clusters = passes_knob_choice(context, &clusters_knob),
-        .mean = needs_mean(context, material, subdivision),
+        .mean = needs_mean(context, material, subdivision) || needs_widths(context, material),
+        .widths = needs_widths(context, material),
     };
     mixture_map mixture = passes_lobe_clustering(context, instance, &request);
     passes_level_reduction(context->graph, &mixture.map);

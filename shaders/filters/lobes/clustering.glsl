@@ -16,11 +16,13 @@
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/lobe/lobe_cluster.glsl"
 #include "lib/lobe/von_mises_fisher.glsl"
+#include "lib/lobe/width_pair.glsl"
 
 layout(constant_id = SPECIALISE_SUBDIVISION) const uint SUBDIVISION = 2;
 layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
+layout(constant_id = SPECIALISE_WIDTH_LAYER) const uint WIDTH_LAYER = 0;
 layout(constant_id = SPECIALISE_CLUSTERS) const uint CLUSTERS = CLUSTERS_TURNED;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
@@ -29,6 +31,8 @@ struct cluster_sums {
     vec4 halves[8]; // finest clusters; only the first where SUBDIVISION is 0
     vec4 mean;      // normal, and 1 - |r| of the base lobes
     float kept;     // coverage
+    vec3 widths;    // of the base lobes
+    vec4 complements[2]; // of those in each of the finest clusters
 };
 
 cluster_sums no_lobes() {
@@ -37,6 +41,8 @@ cluster_sums no_lobes() {
         sums.halves[i] = vec4(0.0);
     sums.mean = vec4(0.0);
     sums.kept = 0.0;
+    sums.widths = vec3(0.0);
+    sums.complements[0] = sums.complements[1] = vec4(0.0);
     return sums;
 }
 
@@ -49,8 +55,12 @@ void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight
         uint cluster = cluster_of(axis, CLUSTERS);
         for (uint i = 0u; i < 8u; ++i)
             sums.halves[i] += i == cluster ? moment : vec4(0.0);
+        if (WIDTH_LAYER != 0u)
+            sums.complements[cluster / 4u][cluster % 4u] += weight * complement;
     }
     sums.mean.w += weight * complement;
+    if (WIDTH_LAYER != 0u)
+        sums.widths += weight * width_powers(complement);
 }
 
 // 1 - |r| of each base lobe. If widths do not vary, it is constant over the dispatch, and the
@@ -88,6 +98,17 @@ void store_layer(ivec2 position, int layer, vec4 value) {
     imageStore(mixture_map, ivec3(position, layer), value);
 }
 
+void store_widths(ivec2 position, cluster_sums sums) {
+    store_layer(position, int(WIDTH_LAYER), vec4(sums.widths, 0.0));
+    vec4 first = sums.complements[0], second = sums.complements[1];
+    if (SUBDIVISION == 1u)
+        first = vec4(first.xz + first.yw, second.xz + second.yw);
+    if (SUBDIVISION >= 1u)
+        store_layer(position, int(WIDTH_LAYER) + 1, first);
+    if (SUBDIVISION >= 2u)
+        store_layer(position, int(WIDTH_LAYER) + 2, second);
+}
+
 void store_clusters(ivec2 position, cluster_sums sums) {
     if (SUBDIVISION == 0u) {
         store_layer(position, MIXTURE_LAYER_ONE, sums.halves[0]);
@@ -108,6 +129,8 @@ void store_clusters(ivec2 position, cluster_sums sums) {
         store_layer(position, int(MEAN_LAYER), sums.mean);
     if (KEPT_LAYER != 0u)
         store_layer(position, int(KEPT_LAYER), vec4(sums.kept));
+    if (WIDTH_LAYER != 0u)
+        store_widths(position, sums);
 }
 
 #endif

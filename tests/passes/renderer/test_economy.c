@@ -184,23 +184,25 @@ static uint32_t layers_of_material(fixture *f, lobe_scene *scene, const lobe_mat
     return layers;
 }
 
-/// Without a normal map one cluster has all lobes: a single layer, with its bytes.
+/// Without a normal map one cluster has all lobes: a single layer, with its bytes. Two widths need
+/// the lobes' mean length and a layer of their own.
 static void no_normal_map_means_one_lobe(void **state) {
     uint64_t bytes;
     lobe_scene *scene = scene_begin();
     lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
     material.width_map = scene_add_map(scene, random_map(64, 32, 0.5, 2, 61));
-    assert_int_equal(layers_of_material(*state, scene, &material, NULL, &bytes), 1);
+    assert_int_equal(layers_of_material(*state, scene, &material, "widths=one", &bytes), 1);
     reduced_map map = {.width = 32, .height = 16, .layers = 1, .levels = 6};
     assert_int_equal(bytes, passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA32_FLOAT));
     scene = scene_begin();
     material.width_map = scene_add_map(scene, random_map(64, 32, 0.5, 2, 61));
-    layers_of_material(*state, scene, &material, "storage=float16", &bytes);
+    assert_int_equal(layers_of_material(*state, scene, &material, "storage=float16", &bytes), 3);
+    map.layers = 3;
     assert_int_equal(bytes, passes_reduced_map_bytes(&map, LOBE_FORMAT_RGBA16_FLOAT));
 }
 
 /// As many layers as the subdivision has, plus one for means only if they cannot be computed from
-/// the others.
+/// the others, and those of the widths only where these vary.
 static void layers_are_those_that_are_read(void **state) {
     static const uint32_t layers[] = {1, 5, 13};
     static const char *const knobs[] = {"subdivision=0", "subdivision=1", "subdivision=2"};
@@ -210,13 +212,14 @@ static void layers_are_those_that_are_read(void **state) {
         lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
         material.normal_map = scene_add_map(scene, random_normal_map(8, 8, 0.3, 62));
         assert_int_equal(layers_of_material(*state, scene, &material, knobs[i], &bytes), layers[i]);
-        // Microfacets of varying roughness need the mean of their base lobes.
+        // Microfacets of varying roughness need the mean of their base lobes, the moments of widths
+        // and their means in the clusters.
         scene = scene_begin();
         lobe_material_default(&material);
         material.normal_map = scene_add_map(scene, random_normal_map(8, 8, 0.3, 63));
         material.metallic_roughness_map = scene_add_map(scene, random_map(8, 8, 0.2, 1, 64));
         assert_int_equal(layers_of_material(*state, scene, &material, knobs[i], &bytes),
-                         layers[i] + 1);
+                         layers[i] + 1 + 1 + (uint32_t)i);
     }
 }
 

@@ -17,7 +17,7 @@ static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *mater
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
     uint32_t subdivision =
-        passes_subdivision_choose(uploaded, &uploaded->materials[0], CLUSTERS_TURNED, 1.15);
+        passes_subdivision_choose(uploaded, &uploaded->materials[0], CLUSTERS_TURNED, 2, 1.15);
     passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     return subdivision;
