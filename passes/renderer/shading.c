@@ -38,7 +38,8 @@ typedef struct drawing {
     bool depth_as_coverage;
     bool shadows;
     bool aov;
-    bool deferred; ///< surfaces come from their picture
+    const seen_surfaces *surfaces;
+    bool deferred; ///< they come from their picture
     lobe_pass *pass;
 } drawing;
 
@@ -236,9 +237,10 @@ static size_t bind_draw(const drawing *d, const instance_batch *batch, lobe_bind
     size_t count = 0;
     bindings[count++] = (lobe_binding){
         .name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)};
-    if (!d->deferred)
-        bindings[count++] = (lobe_binding){.name = "vertex_block",
-                                           .resource = passes_batch_vertices(d->context, batch)};
+    bindings[count++] = d->deferred
+                            ? passes_surfaces_binding(d->surfaces)
+                            : (lobe_binding){.name = "vertex_block",
+                                             .resource = passes_batch_vertices(d->context, batch)};
     return count + passes_material_shading_bind(d->context, d->light,
                                                 &scene->materials[drawn->material],
                                                 batch->appearance, bindings + count);
@@ -334,6 +336,7 @@ static void draw_pass(shading *s, bool deferred, bool begun, lobe_resource frame
                        .depth_as_coverage = targets->depth_as_coverage,
                        .shadows = light->shadows.present,
                        .aov = has_aov(targets),
+                       .surfaces = &s->surfaces,
                        .deferred = deferred,
                        .pass = pass};
     if (s->selection && !deferred && (!begun || s->surfaces.open))

@@ -116,9 +116,10 @@ static void draw_batch(const marking *m, uint32_t index, bool writes_depth) {
         {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
     };
     size_t count = 3;
-    if (!m->deferred)
-        bindings[count++] = (lobe_binding){.name = "vertex_block",
-                                           .resource = passes_batch_vertices(context, batch)};
+    bindings[count++] = m->deferred
+                            ? passes_surfaces_binding(&m->r->surfaces)
+                            : (lobe_binding){.name = "vertex_block",
+                                             .resource = passes_batch_vertices(context, batch)};
     passes_material_maps_bind(context, material, bindings + count);
     specialisation_list list = {.graph = context->graph};
     passes_material_specialise(material, &list);

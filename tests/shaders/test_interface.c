@@ -31,6 +31,7 @@
 #include "shaders/interface/moment_refit.h"
 #include "shaders/interface/motion.h"
 #include "shaders/interface/ocean.h"
+#include "shaders/interface/picture/surfaces.h"
 #include "shaders/interface/shadow.h"
 #include "shaders/interface/slope_moments.h"
 #include "shaders/interface/vertex.h"
@@ -360,6 +361,10 @@ static known_member known[] = {
     MEMBER(shared_knobs, curvature, 0),
     MEMBER(shared_knobs, level_bias, 1),
     MEMBER(shared_knobs, level_blend, 2),
+    MEMBER(surface_rectangle, right, 0),
+    MEMBER(surface_rectangle, bottom, 1),
+    MEMBER(surface_rectangle, from_right, 2),
+    MEMBER(surface_rectangle, from_bottom, 3),
     MEMBER(wave_constants, frequency, 0),
     MEMBER(wave_constants, rest, 1),
     MEMBER(wave_constants, total, 2),

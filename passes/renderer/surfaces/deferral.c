@@ -13,8 +13,6 @@ enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 #define LEAST_PIXELS (128u * 128u)
 /// Of a picture of surfaces, unless the knob asks for it.
 #define MOST_BYTES (256ull << 20)
-/// Each of them is a draw over the whole picture.
-#define MOST_BATCHES 64u
 /// Where triangles are larger than that on average, shading with them wastes little.
 #define LARGEST_TRIANGLE 100.0 ///< pixels
 
@@ -65,8 +63,7 @@ bool passes_shading_is_open(const filter_context *context) {
 }
 
 static bool is_worth_it(const filter_context *context, const draw_list *draws) {
-    return may_be_worth_it(context) && draws->batch_count <= MOST_BATCHES &&
-           has_small_triangles(context, draws);
+    return may_be_worth_it(context) && has_small_triangles(context, draws);
 }
 
 static bool is_chosen(const filter_context *context, const draw_list *draws) {

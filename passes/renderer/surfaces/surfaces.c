@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "passes/context/fit_work.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
 #include "passes/renderer/shadows/shadow_maps.h"
@@ -35,6 +36,10 @@ void passes_surfaces_set_draw(lobe_draw *draw) {
     draw->depth_test = draw->depth_equal = true;
     draw->depth_write = false;
     draw->index_count = 3;
+}
+
+lobe_binding passes_surfaces_binding(const seen_surfaces *surfaces) {
+    return (lobe_binding){.name = "rectangle_block", .resource = surfaces->rectangles};
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -169,6 +174,52 @@ static lobe_resource draw_numbers(const filter_context *context, lobe_resource l
     return drawn;
 }
 
+// ---------------------------------------------------------------------------------------------
+// Rectangles of the batches. The first is nobody's.
+
+/// Passing over the whole picture for each of fewer batches takes less time than to find where
+/// they are.
+#define FEW_BATCHES 16u
+
+/// Pipelines are made for scenes with more of them, too.
+static bool has_few_batches(const surfaces_drawing *d) {
+    const bool prepares = d->context->work && d->context->work->is_dry;
+    return d->draws->batch_count <= FEW_BATCHES && !prepares;
+}
+
+static lobe_resource whole_picture(const surfaces_drawing *d, const shading_targets *targets) {
+    struct surface_rectangle rectangles[1 + FEW_BATCHES];
+    for (uint32_t i = 0; i <= FEW_BATCHES; i++)
+        rectangles[i] = (struct surface_rectangle){.right = targets->width,
+                                                   .bottom = targets->height,
+                                                   .from_right = targets->width,
+                                                   .from_bottom = targets->height};
+    return lobe_graph_upload(d->context->graph, "rectangles of surfaces", rectangles,
+                             sizeof rectangles);
+}
+
+static lobe_resource find_rectangles(const surfaces_drawing *d, lobe_resource layers,
+                                     const shading_targets *targets) {
+    lobe_graph *graph = d->context->graph;
+    const lobe_buffer_description description = {
+        .name = "rectangles of surfaces",
+        .size = (1 + d->draws->batch_count) * sizeof(struct surface_rectangle),
+    };
+    lobe_pass *clear = lobe_graph_add_pass(graph, LOBE_PASS_TRANSFER, "clear");
+    const lobe_resource none = lobe_pass_fill(clear, lobe_graph_buffer(graph, &description),
+                                              (lobe_range){0}, (float[4]){0});
+    lobe_pass *pass = lobe_graph_add_pass(graph, LOBE_PASS_COMPUTE, "surface_rectangles");
+    lobe_pass_read(pass, &(lobe_binding){.name = "surfaces", .resource = layers});
+    const lobe_resource found =
+        lobe_pass_modify(pass, &(lobe_binding){.name = "rectangle_block", .resource = none});
+    const uint32_t runs = (targets->width + SURFACE_RUN - 1) / SURFACE_RUN;
+    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "shading/surfaces/surface_rectangles.comp",
+                                              .threads = {runs, targets->height, 1}});
+    return found;
+}
+
+// ---------------------------------------------------------------------------------------------
+
 seen_surfaces passes_surfaces(const filter_context *context, const draw_list *draws,
                               lobe_resource frame, const shading_selection *selection,
                               shading_targets *targets) {
@@ -183,5 +234,7 @@ seen_surfaces passes_surfaces(const filter_context *context, const draw_list *dr
         surfaces.holds_all &= passes_surfaces_hold(context, &draws->batches[i]);
     surfaces.layers = draw_layers(&d, targets);
     surfaces.numbers = draw_numbers(context, surfaces.layers, targets);
+    surfaces.rectangles = has_few_batches(&d) ? whole_picture(&d, targets)
+                                              : find_rectangles(&d, surfaces.layers, targets);
     return surfaces;
 }

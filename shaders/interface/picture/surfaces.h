@@ -1,6 +1,8 @@
 #ifndef INTERFACE_PICTURE_SURFACES_H
 #define INTERFACE_PICTURE_SURFACES_H
 
+#include "../types.h"
+
 // Layers of the picture of the surfaces that are seen (shading/surfaces/), four numbers a pixel.
 #define SURFACES_POSITION    0 // in the world; `whose`, below
 #define SURFACES_NORMAL      1 // interpolated; depth, as drawn
@@ -23,5 +25,21 @@
 
 // Numbers of batches as depths, which are exact.
 #define SURFACES_DEPTH_OF_NUMBER (1.0 / 4194304.0)
+
+// The pixels in which a batch is seen lie in this rectangle; all zero: it is not seen. Storage
+// buffer, by the batch's number, written by shading/surfaces/surface_rectangles.comp.
+struct surface_rectangle {
+    uint right; // where it ends, exclusive
+    uint bottom;
+    uint from_right;  // where it begins, counted from the ends of the picture, so that all four
+    uint from_bottom; // numbers are the largest of any pixel's
+};
+INTERFACE_SIZE(surface_rectangle, 16)
+INTERFACE_OFFSET(surface_rectangle, bottom, 4)
+INTERFACE_OFFSET(surface_rectangle, from_right, 8)
+INTERFACE_OFFSET(surface_rectangle, from_bottom, 12)
+
+// Pixels of a row that an invocation of surface_rectangles.comp takes.
+#define SURFACE_RUN 32
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "tests/passes/support/fixture.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "scenes/scene/scene.h"
@@ -108,6 +109,28 @@ static lobe_scene *everything(uint32_t lamps, bool surrounded) {
     return scene;
 }
 
+/// Of so many materials that each is looked for in the picture: some on others, some hidden below,
+/// some at the edge and some outside.
+static lobe_scene *many_squares(void) {
+    enum { SQUARES = 40 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material = bumpy(scene, 2);
+    for (int i = 0; i < SQUARES; i++) {
+        material.roughness = 0.2f + 0.01f * (float)i;
+        scene_add_square(scene, &material, 1, NULL);
+        const float x = -1.3f + 0.07f * (float)i, height = i % 3 ? 0.01f * (float)i : -0.2f;
+        const float transform[16] = {
+            0.2f, 0, 0, 0, 0, 0.2f, 0.05f, 0, 0, 0, 0.3f, 0, x, height, 0.9f * sinf(x * 9), 1};
+        memcpy(scene->instances[scene->instance_count - 1].transform, transform, sizeof transform);
+    }
+    material.roughness = 0.9f;
+    scene_add_square(scene, &material, 1, NULL);
+    scene_add_sun(scene, (double[]){0.4, 1, 0.3}, 2);
+    scene_look_down(scene, 2);
+    scene_end(scene);
+    return scene;
+}
+
 // ---------------------------------------------------------------------------------------------
 // Comparisons
 
@@ -171,6 +194,20 @@ static void pictures_are_the_same(void **state) {
         {"direct", "displacement=geometry", "shadows=512", NULL},
     };
     check_all(*state, everything(1, false), cases, sizeof cases / sizeof *cases, 0);
+}
+
+static void pictures_of_many_batches_are_the_same(void **state) {
+    fixture *f = *state;
+    static const char *const settings[][3] = {{NULL}, {"samples=auto", NULL}};
+    lobe_scene *scene = many_squares();
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    for (int i = 0; i < 2; i++) {
+        check(f, scene, "direct", settings[i], 0);
+        assert_true(count_passes(lobe_renderer_graph(f->renderer), "surface_rectangles",
+                                 LOBE_PASS_RUN) > 0);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
 }
 
 /// Each part of them is added from the same picture of surfaces.
@@ -279,6 +316,7 @@ static void shading_is_deferred_where_that_is_faster(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_are_the_same),
+        cmocka_unit_test(pictures_of_many_batches_are_the_same),
         cmocka_unit_test(pictures_of_many_lights_are_the_same),
         cmocka_unit_test(pictures_under_a_sky_are_the_same),
         cmocka_unit_test(tiles_are_marked_from_the_same_picture),
