@@ -51,6 +51,16 @@ static int order_by_binding(const void *first, const void *second) {
     return (a > b) - (a < b);
 }
 
+/// What is declared but not used needs no descriptor. Lavapipe would read one that is not written:
+/// it follows the pointers of samplers.
+static void drop_unused(engine_pipeline *pipeline) {
+    size_t count = 0;
+    for (size_t i = 0; i < pipeline->binding_count; i++)
+        if (pipeline->bindings[i].used)
+            pipeline->bindings[count++] = pipeline->bindings[i];
+    pipeline->binding_count = count;
+}
+
 static lobe_result merge_bindings(const lobe_host *host, const engine_shader *const *shaders,
                                   size_t count, engine_pipeline *pipeline) {
     size_t most = 1;
@@ -66,6 +76,7 @@ static lobe_result merge_bindings(const lobe_host *host, const engine_shader *co
             if (result != LOBE_OK)
                 return result;
         }
+    drop_unused(pipeline);
     qsort(pipeline->bindings, pipeline->binding_count, sizeof *pipeline->bindings,
           order_by_binding);
     return LOBE_OK;

@@ -222,8 +222,6 @@ static lobe_result add_variable(lobe_graph *graph, const command_walk *walk,
                                 const engine_shader_binding *variable, write_batch *batch) {
     const engine_graph_binding *binding =
         engine_graph_find_binding(walk->pass, walk->command, variable->name);
-    if (!binding)
-        return LOBE_OK; // declared in the shader but not used
     uint32_t n = batch->count++;
     batch->writes[n] = (VkWriteDescriptorSet){
         .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,

@@ -190,6 +190,7 @@ static void stages_are_merged(void **state) {
     assert_int_equal(binding_of(pipeline, "Vertices")->stages, both);
     assert_int_equal(binding_of(pipeline, "colours")->stages, VK_SHADER_STAGE_FRAGMENT_BIT);
     assert_null(binding_of(pipeline, "elsewhere"));
+    assert_null(binding_of(pipeline, "unused"));
     assert_int_equal(pipeline->push_constant_size, 32);
     assert_int_equal(pipeline->push_constant_stages, both);
     assert_int_equal(pipeline->output_locations, 1u << 0 | 1u << 2);
