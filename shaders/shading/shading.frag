@@ -71,7 +71,7 @@ void main() {
     if (SHADOWS)
         plane = plane_of_triangle();
     appearance fetched = fetch_appearance(surface);
-    if (ALPHA_MASK && !fetched.kept)
+    if (ALPHA_MASK && !DEFERRED && !fetched.kept)
         discard;
 
     fetch_colour_normals(surface);

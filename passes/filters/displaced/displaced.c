@@ -191,6 +191,7 @@ const lobe_filter passes_filter_displaced = {
     .shading = "displaced",
     .knobs = knobs,
     .reads_heights = true,
+    .moves_masks = true,
     .gathers_moments = true,
     .reads_albedo = true,
     .prepare = prepare,

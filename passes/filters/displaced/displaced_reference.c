@@ -45,6 +45,7 @@ const lobe_filter passes_filter_displaced_reference = {
     .knobs = knobs,
     .supersamples = true,
     .reads_heights = true,
+    .moves_masks = true,
     .build = build,
     .ignores = ignores,
 };

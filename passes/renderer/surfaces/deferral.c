@@ -3,6 +3,7 @@
 #include "passes/context/fit_work.h"
 #include "passes/context/knob_values.h"
 #include "passes/context/shared_knobs.h"
+#include "passes/maps/tile_knobs.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/picture/surfaces.h"
 
@@ -16,10 +17,16 @@ enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 /// Where triangles are larger than that on average, shading with them wastes little.
 #define LARGEST_TRIANGLE 100.0 ///< pixels
 
+/// Tiles of filtered maps, among them a mask's, are made after the picture that tells which.
+static bool can_cut_masks(const filter_context *context) {
+    return !context->filter->moves_masks && !passes_wants_seen_tiles(context);
+}
+
 bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch) {
     const device_material *material =
         &context->scene->materials[context->scene->instances[batch->instance].material];
-    return !material->masked && passes_second_coordinates(material) == 0;
+    return passes_second_coordinates(material) == 0 &&
+           (!material->masked || can_cut_masks(context));
 }
 
 static bool fits(const filter_context *context) {

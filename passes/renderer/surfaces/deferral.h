@@ -3,8 +3,8 @@
 
 #include "passes/renderer/draw_list.h"
 
-/// Whether a picture of surfaces holds a batch. It does not if a mask cuts holes into it, for that
-/// takes the filter's shader, or if maps use the second set of texture coordinates.
+/// Whether a picture of surfaces holds a batch. It does not if maps use the second set of texture
+/// coordinates, or if a mask cuts holes into it that are known only later.
 bool passes_surfaces_hold(const filter_context *context, const instance_batch *batch);
 
 /// Only pipelines are made, and frames to come, perhaps of larger scenes, will choose with `auto`:

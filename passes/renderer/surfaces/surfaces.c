@@ -7,6 +7,7 @@
 #include "passes/context/shared_knobs.h"
 #include "passes/renderer/shadows/shadow_maps.h"
 #include "passes/renderer/surfaces/deferral.h"
+#include "passes/renderer/surfaces/masks.h"
 #include "shaders/interface/picture/surfaces.h"
 #include "shaders/interface/specialisation.h"
 
@@ -103,6 +104,33 @@ static lobe_resource attach(const surfaces_drawing *d, lobe_pass *pass,
     return layers;
 }
 
+static bool is_masked(const surfaces_drawing *d, const instance_batch *batch) {
+    const device_scene *scene = d->context->scene;
+    return scene->materials[scene->instances[batch->instance].material].masked;
+}
+
+static void specialise_draw(const surfaces_drawing *d, const instance_batch *batch,
+                            specialisation_list *list) {
+    passes_specialise(list, SPECIALISE_MIRRORED, batch->mirrored);
+    passes_specialise(list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
+    passes_specialise(list, SPECIALISE_STRETCHED, passes_batch_map_width(d->context, batch) > 0);
+    passes_knobs_specialise(d->context, list);
+    if (is_masked(d, batch))
+        passes_surface_mask_specialise(d->context, batch, list);
+}
+
+static size_t bind_draw(const surfaces_drawing *d, const instance_batch *batch,
+                        lobe_binding *bindings) {
+    bindings[0] = (lobe_binding){.name = "instance_block",
+                                 .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)};
+    bindings[1] = (lobe_binding){.name = "vertex_block",
+                                 .resource = passes_batch_vertices(d->context, batch)};
+    if (!is_masked(d, batch))
+        return 2;
+    passes_surface_mask_bind(d->context, batch, bindings + 2);
+    return 2 + SURFACE_MASK_BINDINGS;
+}
+
 static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t index) {
     const filter_context *context = d->context;
     const instance_batch *batch = &d->draws->batches[index];
@@ -111,18 +139,14 @@ static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t inde
         .map_width = passes_batch_map_width(context, batch),
         .number = 1 + index,
     };
-    const lobe_binding bindings[] = {
-        {.name = "instance_block", .resource = passes_batch_transforms(batch, DRAW_FOR_PICTURE)},
-        {.name = "vertex_block", .resource = passes_batch_vertices(context, batch)},
-    };
+    lobe_binding bindings[2 + SURFACE_MASK_BINDINGS];
+    const size_t binding_count = bind_draw(d, batch, bindings);
     specialisation_list list = {.graph = context->graph};
-    passes_specialise(&list, SPECIALISE_MIRRORED, batch->mirrored);
-    passes_specialise(&list, SPECIALISE_DISPLACED, batch->displaced.vertices.version > 0);
-    passes_specialise(&list, SPECIALISE_STRETCHED, constants.map_width > 0);
-    passes_knobs_specialise(context, &list);
+    specialise_draw(d, batch, &list);
     lobe_draw draw = {
         .vertex_shader = "shading/shading.vert",
-        .fragment_shader = "shading/surfaces/surfaces.frag",
+        .fragment_shader = is_masked(d, batch) ? "shading/surfaces/surfaces_mask.frag"
+                                               : "shading/surfaces/surfaces.frag",
         .cull = passes_batch_cull(context->scene, batch),
         .depth_test = true,
         .depth_write = true,
@@ -131,7 +155,7 @@ static void draw_batch(const surfaces_drawing *d, lobe_pass *pass, uint32_t inde
         .specialisation = list.items,
         .specialisation_count = list.count,
         .bindings = bindings,
-        .binding_count = sizeof bindings / sizeof *bindings,
+        .binding_count = binding_count,
     };
     passes_batch_set_counts(context, batch, DRAW_FOR_PICTURE, &draw);
     passes_selection_count(d->selection, FIRST_INSTANCE_DRAW + index, &draw);

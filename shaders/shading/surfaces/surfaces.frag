@@ -1,9 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#pragma variants MASK
 
 // Draws what shading needs of the surfaces that are mesh. Shading reads it pixel by pixel
-// (pictured_point.glsl), whatever the size of the triangles.
+// (pictured_point.glsl), whatever the size of the triangles. With MASK, cuts the holes that the
+// filter's own shader would.
 
+#ifdef MASK
+#include "shading/pixel.glsl"
+#include "shading/mask.glsl"
+#else
 #include "interface/frame.h"
 #include "interface/instance.h"
 #include "interface/knobs.h"
@@ -19,6 +26,9 @@ layout(push_constant) uniform draw_block { draw_constants draw; };
 
 #include "shading/surfaces/fragment.glsl"
 
+mesh_point mesh;
+#endif
+
 layout(location = SURFACES_POSITION) out vec4 position_out;
 layout(location = SURFACES_NORMAL) out vec4 normal_out;
 layout(location = SURFACES_TANGENT) out vec4 tangent_out;
@@ -30,7 +40,12 @@ layout(location = SURFACES_DOWN) out vec4 down_out;
 layout(location = SURFACES_COLOUR) out vec4 colour_out;
 
 void main() {
-    mesh_point mesh = interpolated_point();
+#ifdef MASK
+    if (!keeps_footprint(read_surface()))
+        discard;
+#else
+    mesh = interpolated_point();
+#endif
     uint whose = 4u * draw.number + (mesh.front ? SURFACES_FRONT : 0u) +
                  (mesh.tangent.w < 0.0 ? SURFACES_LEFT : 0u);
     position_out = vec4(mesh.position, float(whose));

@@ -26,7 +26,7 @@ static lobe_material bumpy(lobe_scene *scene, uint64_t seed) {
     return material;
 }
 
-/// Holes in it.
+/// With holes.
 static void add_masked_sphere(lobe_scene *scene) {
     lobe_material material = bumpy(scene, 3);
     lobe_image colours = random_map(16, 16, 0, 1, 4);
@@ -278,6 +278,18 @@ static void tiles_are_marked_from_the_same_picture(void **state) {
     check_marking(*state, leaf_on_plain_ground());
 }
 
+/// Holes are in the picture: nothing is left to be drawn by its triangles.
+static void masks_cut_the_picture(void **state) {
+    fixture *f = *state;
+    lobe_scene *scene = leaf_on_plain_ground();
+    scene_look_down(scene, 2);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    check(f, scene, "toksvig", (const char *[]){"samples=1", NULL}, 0);
+    assert_int_equal(count_passes(lobe_renderer_graph(f->renderer), "shading", LOBE_PASS_RUN), 1);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+}
+
 // ---------------------------------------------------------------------------------------------
 // The choice
 
@@ -319,6 +331,7 @@ int main(void) {
         cmocka_unit_test(pictures_of_many_batches_are_the_same),
         cmocka_unit_test(pictures_of_many_lights_are_the_same),
         cmocka_unit_test(pictures_under_a_sky_are_the_same),
+        cmocka_unit_test(masks_cut_the_picture),
         cmocka_unit_test(tiles_are_marked_from_the_same_picture),
         cmocka_unit_test(shading_is_deferred_where_that_is_faster),
         cmocka_unit_test(validation_is_silent),
