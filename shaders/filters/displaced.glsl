@@ -25,6 +25,8 @@ const bool BIN_COLOUR = false;
 const bool BIN_WIDTHS = false;
 
 #include "filters/displaced/mirrored_light.glsl"
+#include "lib/displacement/second_facets.glsl"
+#include "lib/microfacet/facing_area.glsl"
 #include "filters/displaced/light_sent_on.glsl"
 #include "filters/displaced/two_widths.glsl"
 #include "filters/leadr/base_lobe_map.glsl"
@@ -95,7 +97,8 @@ struct near_facet {
 struct relief_footprint {
     vec3 viewer;
     reflected_form form; // over the area that is seen
-    polynomials area;    // that is seen of the facets, by the viewer's polynomials
+    polynomials area;    // that is seen of the facets, by products of a direction's coordinates
+    polynomials mean_area; // the map's mean of it
     vec3 colour;         // the mean diffuse colour, if it varies
     float visible;       // the area that the viewer sees, over the map's mean of it
     float seen;          // of the facets' area that faces the viewer
@@ -414,6 +417,9 @@ void gather_relief(surface_point surface, bool lit) {
             area[k] = entry(TRANSFER_ENTRIES(ORDER) + k);
         drawn.visible = relative_area(visible_area(functions), viewer);
         drawn.area = in_polynomials(area);
+        drawn.mean_area = polynomials(closure.visible);
+        transfer_products(drawn.area.terms);
+        transfer_products(drawn.mean_area.terms);
     }
     divide_form(lit);
 }
@@ -567,12 +573,10 @@ facet_group facets_of_bin(surface_point surface, map_area area, uint index) {
 
 // The same of the whole map, where other facets are than a pixel's own.
 facet_group facets_of_map(uint index) {
-    vec4 group = closure.basis.groups[2u * index];
-    vec3 inverse = closure.basis.groups[2u * index + 1u].xyz;
-    float determinant = 1.0 / max(inverse.x * inverse.y - inverse.z * inverse.z, 1e-12);
+    vec4 group = closure.basis.groups[2u * index], inverse = closure.basis.groups[2u * index + 1u];
     mat2 turn = transpose(turn_of_map());
-    vec3 places = stretched_covariance(turn, determinant * vec3(inverse.yx, -inverse.z));
-    return facet_group(exp(group.z) * sqrt(determinant), turn * group.xy, places, 0.0, 0.0);
+    vec3 places = stretched_covariance(turn, group_covariance(inverse));
+    return facet_group(group.w, turn * group.xy, places, 0.0, 0.0);
 }
 
 normal_spread normals_of(facet_group facets) {
@@ -597,18 +601,32 @@ plane_bin bin_of(facet_group facets, float width) {
     return bin;
 }
 
-// What faces a direction, hidden or not, as it appears from there.
-float facing_area(facet_group facets, vec3 direction) {
-    return facets.size > 0.0 ? facets.size * mean_facing_cosine(normals_of(facets), direction)
-                             : 0.0;
+facet_spread spread_of(facet_group facets) {
+    return facet_spread_of(normals_of(facets), facets.size);
 }
 
-// The part of the area that faces a direction that is also seen from there: the one by the facets'
-// normals alone, the other by their horizons.
-float seen_part(float facing, vec3 direction) {
-    polynomials values = polynomials_of(direction);
-    float seen = direction.z * relative_area(product(drawn.area, values), values);
-    return clamp(seen / max(facing, 1e-6), 0.0, 1.0);
+// What faces a direction, hidden or not, as it appears from there.
+float facing_area(facet_spread facets[FACET_BINS], vec3 direction) {
+    float sum = 0.0;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        sum += facing_area(facets[k], direction);
+    return sum;
+}
+
+// The area that is seen from a direction, and what faces it, both times the same number: the one by
+// the facets' horizons, the other by their normals alone.
+vec2 seen_and_facing(facet_spread facets[FACET_BINS], vec3 direction) {
+    polynomials terms;
+    transfer_terms(map_from_tangent(direction), terms.terms);
+    float mean = max(product(drawn.mean_area, terms), 1e-6);
+    float seen = direction.z * max(product(drawn.area, terms), LEAST_VISIBLE * mean);
+    return vec2(seen, max(mean * facing_area(facets, direction), max(seen, 1e-6)));
+}
+
+// The part of what faces a direction that is also seen from there.
+float seen_part(facet_spread facets[FACET_BINS], vec3 direction) {
+    vec2 areas = seen_and_facing(facets, direction);
+    return clamp(areas.x / areas.y, 0.0, 1.0);
 }
 
 // How much more the relief hides of something than of others: of Smith's Lambda. Both are of such
@@ -633,7 +651,7 @@ void find_depths(facet_group groups[FACET_BINS], out float depths[FACET_BINS]) {
     }
     float scale = 1.0 / odds_of_hiding(all.x, all.y, all.z);
     for (uint k = 0u; k < FACET_BINS; ++k)
-        depths[k] = clamp(pow(scale * depths[k], 1.5), 0.05, 8.0);
+        depths[k] = clamp(scale * depths[k] * sqrt(scale * depths[k]), 0.05, 8.0);
 }
 
 // Smith's Lambda, where so much of what faces a direction is seen.
@@ -645,13 +663,6 @@ float lambda_of_seen(float seen) {
 // Lambda + Lambda'), written with 1 / (1 + Lambda) of both.
 float seen_by_both(float first, float second) {
     return first * second / max(first + second - first * second, 1e-6);
-}
-
-float facing_area(facet_group groups[FACET_BINS], vec3 direction) {
-    float sum = 0.0;
-    for (uint k = 0u; k < FACET_BINS; ++k)
-        sum += facing_area(groups[k], direction);
-    return sum;
 }
 
 // Second moments of the slopes of all facets: of their normals' places, which are about as large.
@@ -666,7 +677,7 @@ vec3 moments_of_slopes(facet_group groups[FACET_BINS]) {
 // viewer, on the side that their mean mirrors: found where the lobe is, but low enough that
 // something is hidden, which of Gaussian slopes it is up to about their deviation.
 // `deviation`: of the lobe's height. `slopes`: see moments_of_slopes().
-float height_of_open_sky(facet_group groups[FACET_BINS], vec3 slopes, vec3 mirrored,
+float height_of_open_sky(facet_spread facets[FACET_BINS], vec3 slopes, vec3 mirrored,
                          float deviation) {
     const float LEAST_HEIGHT = 0.05, MOST_HEIGHT = 0.4, DEVIATIONS = 0.75;
     vec2 level = inversesqrt(max(dot(mirrored.xy, mirrored.xy), 1e-8)) * mirrored.xy;
@@ -675,7 +686,7 @@ float height_of_open_sky(facet_group groups[FACET_BINS], vec3 slopes, vec3 mirro
     positive_part above = positive_part_of(mirrored.z / deviation);
     float height = clamp(mirrored.z + deviation * above.shift, min(LEAST_HEIGHT, most), most);
     vec3 direction = vec3(sqrt(1.0 - height * height) * level, height);
-    float open = seen_part(facing_area(groups, direction), direction);
+    float open = seen_part(facets, direction);
     return height * drawn.seen / max(seen_by_both(drawn.seen, open), 0.02 * drawn.seen);
 }
 
@@ -691,28 +702,27 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
 }
 
 // The part of what the facets of a bin mirror to the viewer that comes from above the relief, under
-// an even sky: masked as a sun is, in seven directions that they mirror, nodes of normals that are
-// Gaussian in the plane (exact for polynomials of degree 5). `hidden`: the sum of these directions,
-// each as long as the part of it that other facets hide.
-float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen, out vec3 hidden) {
-    const uint NODES = 7u;
+// an even sky: masked as a sun is, in four directions that they mirror, nodes of normals that are
+// Gaussian in the plane (exact for polynomials of degree 3). `hidden`: what other facets hide of
+// it, in the map's frame.
+float lit_part(facet_spread facets[FACET_BINS], float depth, normal_spread seen,
+               out light_moments hidden) {
+    const vec2 NODES[4] = vec2[4](vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0),
+                                  vec2(-1.0, -1.0));
     vec2 place = plane_from_direction(normalize(seen.mean));
     float x = sqrt(max(seen.covariance.x, 1e-12)), shear = seen.covariance.z / x;
     float y = sqrt(max(seen.covariance.y - shear * shear, 1e-12));
     float to_viewer = 1.0 + depth * lambda_of_seen(drawn.seen), sum = 0.0;
-    hidden = vec3(0.0);
-    for (uint i = 0u; i < NODES; ++i) {
-        float angle = PI / 3.0 * float(i);
-        vec2 node = i < 6u ? 2.0 * vec2(cos(angle), sin(angle)) : vec2(0.0);
+    hidden = no_moments();
+    for (uint i = 0u; i < 4u; ++i) {
+        vec2 node = NODES[i];
         vec3 normal = direction_from_plane(place + vec2(x * node.x, shear * node.x + y * node.y));
         vec3 incoming = reflect(-drawn.viewer, normal);
-        float weight = i < 6u ? 1.0 / 12.0 : 0.5, lit = 0.0;
-        if (incoming.z > 0.0) {
-            float open = seen_part(facing_area(groups, incoming), incoming);
-            lit = to_viewer / (to_viewer + depth * lambda_of_seen(open));
-        }
-        sum += weight * lit;
-        hidden += weight * (1.0 - lit) * incoming;
+        vec2 areas = seen_and_facing(facets, incoming);
+        float lit = to_viewer * areas.x;
+        lit = incoming.z > 0.0 ? lit / (lit + depth * (areas.y - areas.x)) : 0.0;
+        sum += 0.25 * lit;
+        add_moments(hidden, 0.25 * (1.0 - lit), map_from_tangent(incoming));
     }
     return sum;
 }
@@ -722,45 +732,29 @@ float lit_part(facet_group groups[FACET_BINS], float depth, normal_spread seen, 
 // environment, whose lobes end at horizons as well, half as much.
 struct mirroring_bins {
     facet_group groups[FACET_BINS];
+    facet_spread facets[FACET_BINS]; // the same
     float depths[FACET_BINS]; // see find_depths()
     float seen[FACET_BINS];   // areas that are not masked
     float lit[FACET_BINS];    // see lit_part()
     float areas[FACET_BINS];  // shadowed as well, of one width of microfacets
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
     float shown;                // the sum of areas
-    vec3 sent_on;               // see directions_from_second()
+    vec3 sent_on;               // see lib/displacement/second_facets.glsl
     float hidden;               // of light that smooth facets mirror, what meets other facets
 };
 
-// Light that goes on in a beam of directions, from any facets that it meets: the mean of them, as
-// long as they are alike.
-vec3 directions_from_second(facet_group groups[FACET_BINS], vec3 beam) {
-    vec3 direction = normalize(beam + vec3(0.0, 0.0, -1e-9)), sum = vec3(0.0);
-    float area = 1e-6;
-    for (uint k = 0u; k < FACET_BINS; ++k) {
-        if (groups[k].size <= 1e-4)
-            continue;
-        normal_spread normals = normals_of(groups[k]);
-        float share, cosine = groups[k].size * mean_facing_cosine(normals, -direction);
-        normals = seen_normals(normals, -direction, share);
-        vec3 normal = normalize(normals.mean);
-        float between = dot(normal, direction);
-        // Directions turn twice as far as normals, across the plane of both less.
-        float spread = normals.covariance.x + normals.covariance.y;
-        sum += cosine * exp(-spread * (1.0 + between * between)) * reflect(direction, normal);
-        area += cosine;
-    }
-    return sum * (length(beam) / area);
-}
-
 // Where a pixel's own facets face away from the viewer, `others` are seen behind them: the map's.
 // Adds so much of these that what is seen is not more than what faces the viewer.
-void add_facets_seen_behind(inout facet_group groups[FACET_BINS], facet_group others[FACET_BINS]) {
-    float lacking = drawn.viewer.z * drawn.visible - facing_area(groups, drawn.viewer);
+void add_facets_seen_behind(inout facet_group groups[FACET_BINS], facet_group others[FACET_BINS],
+                            facet_spread behind[FACET_BINS]) {
+    facet_spread facets[FACET_BINS];
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        facets[k] = spread_of(groups[k]);
+    float lacking = drawn.viewer.z * drawn.visible - facing_area(facets, drawn.viewer);
     if (lacking <= 0.0)
         return;
-    float scale = lacking / max(facing_area(others, drawn.viewer), 1e-3);
-    drawn.area = sum_of(drawn.area, 1.0, polynomials(closure.visible), scale);
+    float scale = lacking / max(facing_area(behind, drawn.viewer), 1e-3);
+    drawn.area = sum_of(drawn.area, 1.0, drawn.mean_area, scale);
     for (uint k = 0u; k < FACET_BINS; ++k) {
         float size = groups[k].size + scale * others[k].size;
         float part = scale * others[k].size / max(size, 1e-6);
@@ -779,12 +773,16 @@ mirroring_bins find_bins(surface_point surface) {
     map_area area = transfer_area(surface);
     mirroring_bins bins;
     facet_group others[FACET_BINS];
+    facet_spread behind[FACET_BINS];
     for (uint k = 0u; k < FACET_BINS; ++k) {
         bins.groups[k] = facets_of_bin(surface, area, k);
         others[k] = facets_of_map(k);
+        behind[k] = spread_of(others[k]);
     }
-    add_facets_seen_behind(bins.groups, others);
-    drawn.seen = seen_part(facing_area(bins.groups, drawn.viewer), drawn.viewer);
+    add_facets_seen_behind(bins.groups, others, behind);
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        bins.facets[k] = spread_of(bins.groups[k]);
+    drawn.seen = seen_part(bins.facets, drawn.viewer);
     find_depths(bins.groups, bins.depths);
     float facing = 0.0, masked = 0.0, kept = 1e-6;
     bins.sent_on = vec3(0.0);
@@ -795,19 +793,17 @@ mirroring_bins find_bins(surface_point surface) {
         bins.seen[k] = 0.0;
         if (size * bins.shares[k] <= 1e-4)
             continue;
-        float cosine = size * mean_facing_cosine(normals, drawn.viewer);
+        float cosine = facing_area(bins.facets[k], drawn.viewer);
         bins.seen[k] = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
         facing += cosine;
         masked += bins.seen[k];
-        vec3 hidden;
-        bins.lit[k] = lit_part(bins.groups, bins.depths[k], seen, hidden);
-        float part = bins.seen[k] * (1.0 - bins.lit[k]);
-        if (part <= 1e-6)
-            continue;
-        kept += part;
-        bins.sent_on += directions_from_second(others, bins.seen[k] * hidden);
+        light_moments hidden;
+        bins.lit[k] = lit_part(bins.facets, bins.depths[k], seen, hidden);
+        kept += bins.seen[k] * (1.0 - bins.lit[k]);
+        bins.sent_on +=
+            bins.seen[k] * directions_from_second(hidden, closure.basis.second, k);
     }
-    bins.sent_on /= kept;
+    bins.sent_on = tangent_from_map(bins.sent_on) / kept;
     bins.hidden = kept / max(masked, 1e-6);
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
@@ -840,7 +836,7 @@ void find_horizons(mirroring_bins bins, float width, out float horizons[FACET_BI
         float share;
         normal_spread seen = seen_normals(normals_of(bins.groups[k]), drawn.viewer, share);
         vec3 mirrored = reflect(-drawn.viewer, normalize(seen.mean));
-        float top = height_of_open_sky(bins.groups, slopes, mirrored,
+        float top = height_of_open_sky(bins.facets, slopes, mirrored,
                                        deviation_of_mirrored(seen, drawn.viewer));
         horizons[k] = max(top * (1.0 - roughness * roughness), 1e-3);
     }
@@ -893,7 +889,7 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
     float hiding[4]; // Lambda of light and viewer
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
         hiding[i] = lambda_of_seen(drawn.seen) +
-                    lambda_of_seen(seen_part(facing_area(bins.groups, incoming[i]), incoming[i]));
+                    lambda_of_seen(seen_part(bins.facets, incoming[i]));
     for (uint w = 0u; w < WIDTHS; ++w) {
         base_material base = fetched.base;
         base.width = drawn.widths[w];

@@ -178,6 +178,7 @@ static known_member known[] = {
     MEMBER(transfer_basis_constants, integrals, 1),
     MEMBER(transfer_basis_constants, groups, 2),
     MEMBER(transfer_basis_constants, hidden, 3),
+    MEMBER(transfer_basis_constants, second, 4),
     MEMBER(transfer_closure_constants, basis, 0),
     MEMBER(transfer_closure_constants, lacking, 1),
     MEMBER(transfer_closure_constants, visible, 2),

@@ -6,7 +6,7 @@
 #include "passes/maps/kept/texels.h"
 
 /// Increment it whenever the same relief gets other maps: old files are then no longer found.
-enum { TRANSFER_FILE_VERSION = 6 };
+enum { TRANSFER_FILE_VERSION = 7 };
 
 static uint64_t kind_digest(const transfer_kind *kind) {
     const uint64_t numbers[] = {kind->order,

@@ -4,10 +4,12 @@
 // The mixture of Gaussians that sorts the normals of a map's facets into bins
 // (lib/displacement/facet_bins.glsl): of the largest likelihood, by expectation and maximisation,
 // for facets that are spread over the map and weighted with their areas. Then what the relief hides
-// of them: what is seen of all facets is the carrier. One group.
+// of them: what is seen of all facets is the carrier; and where these send light that others mirror
+// onto them. One group.
 
 #include "filters/displaced/height_field.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "lib/displacement/second_facets.glsl"
 #include "lib/lobe/lambert_plane.glsl"
 #include "lib/number/hash.glsl"
 
@@ -24,6 +26,7 @@ layout(set = 0, binding = 1, std430) buffer basis_block { transfer_basis_constan
 shared float sums[THREADS][SUMS];
 shared float totals[SUMS];
 shared vec4 groups[2u * FACET_BINS];
+shared vec4 seconds[FACET_DIRECTIONS];
 
 vec3 normal_in_tangent_frame(vec4 corners, bool upper) {
     // The relief's y runs against the tangent frame's.
@@ -88,8 +91,8 @@ void make_group(uint k) {
     float determinant =
         max(variance.x * variance.y - covariance * covariance, pow(least, 4.0));
     float part = log(max(area / all, 1e-12)) - 0.5 * log(determinant);
-    groups[2u * k] = vec4(mean, part, 0.0);
-    groups[2u * k + 1u] = vec4(variance.yx, -covariance, 0.0) / determinant;
+    groups[2u * k] = vec4(mean, part, area / all);
+    groups[2u * k + 1u] = vec4(vec3(variance.yx, -covariance) / determinant, determinant);
 }
 
 float hidden_from(vec3 direction) {
@@ -125,6 +128,15 @@ void main() {
     }
     if (own < 2u * FACET_BINS)
         basis.groups[own] = groups[own];
-    if (own < FACET_DIRECTIONS)
+    if (own < FACET_DIRECTIONS) {
         basis.hidden[own / 4u][own % 4u] = hidden_from(facet_direction(own));
+        seconds[own] = seconds_of_direction(groups, second_direction(own));
+    }
+    barrier();
+    if (own < FACET_BINS) {
+        vec3 factors[SECOND_FACTORS];
+        fit_second(seconds, direction_from_plane(groups[2u * own].xy), factors);
+        for (uint i = 0u; i < SECOND_FACTORS; ++i)
+            basis.second[SECOND_FACTORS * own + i] = vec4(factors[i], 0.0);
+    }
 }

@@ -91,20 +91,24 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 // places in the Lambert plane of the tangent frame.
 #define FACET_BINS       5
 #define FACET_DIRECTIONS 48
+#define SECOND_FACTORS   9
 struct transfer_basis_constants {
     float4 functions[4 * TRANSFER_MAXIMUM_ORDER]; // 16 factors each
     float4 integrals[3];                          // over the hemisphere; the last is 0, but for x
-    // Of each bin, its mean and the logarithm of its part of the facets' area over the root of its
-    // covariance's determinant; then its inverse covariance, (xx, yy, xy).
+    // Of each bin, its mean, the logarithm of its part of the facets' area over the root of its
+    // covariance's determinant, and that part; then its inverse covariance, (xx, yy, xy), and the
+    // covariance's determinant.
     float4 groups[2 * FACET_BINS];
     // What the relief hides of the cosine, from each of facet_direction(), times the cosine to the
     // carrier and the direction's part of the hemisphere.
     float4 hidden[FACET_DIRECTIONS / 4];
+    float4 second[SECOND_FACTORS * FACET_BINS]; // see lib/displacement/second_facets.glsl
 };
-INTERFACE_SIZE(transfer_basis_constants, 976)
+INTERFACE_SIZE(transfer_basis_constants, 1696)
 INTERFACE_OFFSET(transfer_basis_constants, integrals, 576)
 INTERFACE_OFFSET(transfer_basis_constants, groups, 624)
 INTERFACE_OFFSET(transfer_basis_constants, hidden, 784)
+INTERFACE_OFFSET(transfer_basis_constants, second, 976)
 #ifndef VULKAN
 typedef struct transfer_basis_constants transfer_basis_constants;
 #endif
@@ -120,12 +124,12 @@ struct transfer_closure_constants {
     float direct;      // the part of diffuse light that a white relief reflects at once
     float padding;
 };
-INTERFACE_SIZE(transfer_closure_constants, 1120)
-INTERFACE_OFFSET(transfer_closure_constants, lacking, 976)
-INTERFACE_OFFSET(transfer_closure_constants, visible, 1040)
-INTERFACE_OFFSET(transfer_closure_constants, lost, 1104)
-INTERFACE_OFFSET(transfer_closure_constants, persistence, 1108)
-INTERFACE_OFFSET(transfer_closure_constants, direct, 1112)
+INTERFACE_SIZE(transfer_closure_constants, 1840)
+INTERFACE_OFFSET(transfer_closure_constants, lacking, 1696)
+INTERFACE_OFFSET(transfer_closure_constants, visible, 1760)
+INTERFACE_OFFSET(transfer_closure_constants, lost, 1824)
+INTERFACE_OFFSET(transfer_closure_constants, persistence, 1828)
+INTERFACE_OFFSET(transfer_closure_constants, direct, 1832)
 
 // The map of facets' normals: of each bin, two layers of means over a cell: p a and p a d_x, p a
 // d_y, p a h; then p a d_x^2, p a d_y^2, p a d_x d_y, p a e, with d the place less the bin's mean,

@@ -28,6 +28,12 @@ void facet_parts(vec2 place, vec4 groups[2 * FACET_BINS], out float parts[FACET_
         parts[k] /= sum;
 }
 
+// The covariance (xx, yy, xy) of a bin's places. `inverse`: of `groups`, with its determinant's
+// inverse.
+vec3 group_covariance(vec4 inverse) {
+    return inverse.w * vec3(inverse.yx, -inverse.z);
+}
+
 // Where the mixture is looked for from: bin 0 near the pole, or the nearest half axis, +x, -x, +y,
 // -y. `radius`: the mean distance of places from the pole.
 uint first_facet_bin(vec2 place, float radius) {

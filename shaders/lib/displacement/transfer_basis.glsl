@@ -62,6 +62,33 @@ void transfer_polynomials(vec3 d, out float y[16]) {
                          float[3](z, z * z, z * z * z), float[2](z, z * z), z, d.xy, y);
 }
 
+// The same over z as sums of 16 products of coordinates, which take fewer operations to find: for
+// sums of polynomials over z whose factors were turned into such products' by transfer_products.
+void transfer_terms(vec3 d, out vec4 terms[4]) {
+    float difference = d.x * d.x - d.y * d.y;
+    vec3 pairs = d.xxy * d.yzz;
+    float square = d.z * d.z;
+    terms[0] = vec4(1.0, d);
+    terms[1] = vec4(pairs, difference);
+    terms[2] = vec4(square, d.x * (difference - 2.0 * d.y * d.y),
+                    d.y * (difference + 2.0 * d.x * d.x), pairs.x * d.z);
+    terms[3] = vec4(difference, square * d) * vec4(d.z, 1.0, 1.0, 1.0);
+}
+
+// `factors`: of the polynomials.
+void transfer_products(inout vec4 factors[4]) {
+    for (int i = 0; i < 4; ++i)
+        factors[i] *= vec4(TRANSFER_SCALE[4 * i], TRANSFER_SCALE[4 * i + 1],
+                           TRANSFER_SCALE[4 * i + 2], TRANSFER_SCALE[4 * i + 3]);
+    vec4 third = factors[3];
+    factors[0] += vec4(0.4 * factors[2].x - 0.75 * factors[0].w - 5.0 / 28.0 * third.w,
+                       73.0 / 238.0 * third.yz - 0.625 * factors[1].yz,
+                       15.0 / 14.0 * third.w - 4.0 / 3.0 * factors[2].x);
+    factors[1] -= vec4(35.0 / 64.0 * factors[2].w, 20.0 / 17.0 * third.yz,
+                       35.0 / 64.0 * third.x);
+    factors[2].x -= 1.875 * third.w;
+}
+
 // Integrals over elevations, of one azimuth, of the polynomials times the cosine to a facet's
 // normal: b += width of the azimuth times these. `slope`: tangent of the elevation, at least 0,
 // above which the sky is seen; `along`: the horizontal direction (x, y); `towards`: its product

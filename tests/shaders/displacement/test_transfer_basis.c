@@ -122,12 +122,32 @@ static void moments_of_light_give_its_polynomials(void **state) {
     report_worst_error("light");
 }
 
+static void products_of_coordinates_give_them_too(void **state) {
+    static double expected[COUNT][FUNCTIONS];
+    uint64_t random = 5;
+    for (size_t i = 0; i < COUNT; i++) {
+        random_direction(&random, arguments[i].a);
+        arguments[i].a[2] = fabsf(arguments[i].a[2]);
+    }
+    evaluate(state, 0, COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int k = 0; k < FUNCTIONS; k++)
+            expected[i][k] = value(i, k);
+    evaluate(state, 16, COUNT);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int k = 0; k < FUNCTIONS; k++)
+            check_close("products", &arguments[i], value(i, k) * (double)arguments[i].a[2],
+                        expected[i][k], 5e-5);
+    report_worst_error("products");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polynomials_are_orthonormal),
         cmocka_unit_test(below_the_horizon_they_are_nothing),
         cmocka_unit_test(azimuths_are_integrated),
         cmocka_unit_test(moments_of_light_give_its_polynomials),
+        cmocka_unit_test(products_of_coordinates_give_them_too),
     };
     return cmocka_run_group_tests_name("transfer_basis", tests, harness_set_up, harness_tear_down);
 }

@@ -20,11 +20,23 @@ mat3 frame_of(vec3 normal, vec4 c) {
 
 // Functions 0 to 3: four polynomials each of the direction a; 4 to 7: their integrals over an
 // azimuth: a: slope, along, towards; b.x: up; b.y: width. 8 to 11: of the light from a in the frame
-// of b and c, by its moments; 12 to 15: by its direction.
+// of b and c, by its moments; 12 to 15: by its direction. 16 to 19: of the direction a, over its
+// height, by products of its coordinates.
 vec4 evaluate(vec4 a, vec4 b, vec4 c) {
     float y[16];
     if (FUNCTION < 4u) {
         transfer_polynomials(a.xyz, y);
+    } else if (FUNCTION >= 16u) {
+        vec4 terms[4];
+        transfer_terms(a.xyz, terms);
+        for (uint k = 0u; k < 16u; ++k) {
+            vec4 factors[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+            factors[k / 4u][k % 4u] = 1.0;
+            transfer_products(factors);
+            y[k] = 0.0;
+            for (uint i = 0u; i < 4u; ++i)
+                y[k] += dot(factors[i], terms[i]);
+        }
     } else if (FUNCTION >= 12u) {
         transfer_polynomials(frame_of(b.xyz, c) * a.xyz, y);
     } else if (FUNCTION >= 8u) {
