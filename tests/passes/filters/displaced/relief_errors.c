@@ -174,10 +174,10 @@ static uint32_t samples_of(double roughness) {
     return roughness < 0.15 ? 256 : roughness < 0.35 ? 64 : 16;
 }
 
-/// Averaged over azimuths.
-static void measure(fixture *f, lobe_scene *scene, double roughness, sight seen,
-                    relief_outcomes *results) {
-    outcome result = {.seen = seen};
+/// Averaged over azimuths. `truth`: by the reference.
+static relief_mean mean_of_sight(fixture *f, lobe_scene *scene, double roughness, sight seen,
+                                 bool truth) {
+    relief_mean result = {0};
     for (int a = 0; a < AZIMUTHS; a++) {
         const relief_side viewer = {viewers[seen.viewer], 17 + 83 * a};
         relief_sides_look(scene, viewer);
@@ -185,14 +185,37 @@ static void measure(fixture *f, lobe_scene *scene, double roughness, sight seen,
             relief_sides_shine(
                 scene, (relief_side){suns[seen.sun],
                                      viewer.azimuth + (a % 2 ? -1 : 1) * aparts[seen.apart]});
-        result.found += relief_sides_draw(f, scene, "displaced", 1).value / AZIMUTHS;
-        const relief_mean truth =
-            relief_sides_draw(f, scene, "displaced-reference", samples_of(roughness));
-        result.expected += truth.value / AZIMUTHS;
-        result.noise += truth.noise * truth.noise;
+        const relief_mean one =
+            relief_sides_draw(f, scene, truth ? "displaced-reference" : "displaced",
+                              truth ? samples_of(roughness) : 1);
+        result.value += one.value / AZIMUTHS;
+        result.noise += one.noise * one.noise;
     }
     result.noise = sqrt(result.noise) / AZIMUTHS;
-    results->outcomes[results->count++] = result;
+    return result;
+}
+
+/// All sights of a scene by the filter, then by the reference: each change of the filter makes the
+/// relief's maps again.
+static void measure_scene(fixture *f, lobe_scene *scene, double roughness, int index,
+                          relief_outcomes *results) {
+    const bool sky = scene->light_count == 0;
+    const int sun_count = sky ? 1 : SUNS * APARTS;
+    outcome *outcomes = &results->outcomes[results->count];
+    for (int truth = 0; truth < 2; truth++)
+        for (int i = 0; i < VIEWERS * sun_count; i++) {
+            const int sun = i % sun_count;
+            const sight seen = {index, i / sun_count, sun / APARTS, sun % APARTS, sky};
+            const relief_mean mean = mean_of_sight(f, scene, roughness, seen, truth);
+            outcomes[i].seen = seen;
+            if (truth) {
+                outcomes[i].expected = mean.value;
+                outcomes[i].noise = mean.noise;
+            } else {
+                outcomes[i].found = mean.value;
+            }
+        }
+    results->count += VIEWERS * sun_count;
 }
 
 static relief_outcomes measure_relief(fixture *f, const shown_material *shown, const char *name,
@@ -206,15 +229,7 @@ static relief_outcomes measure_relief(fixture *f, const shown_material *shown, c
             if (shown->shines)
                 scene->light_count = 0;
             hold_scene(f, scene);
-            for (int v = 0; v < VIEWERS; v++) {
-                if (scene->light_count == 0) {
-                    measure(f, scene, shown->roughness[r], (sight){r, v, 0, 0, true}, &results);
-                    continue;
-                }
-                for (int i = 0; i < SUNS * APARTS; i++)
-                    measure(f, scene, shown->roughness[r],
-                            (sight){r, v, i / APARTS, i % APARTS, false}, &results);
-            }
+            measure_scene(f, scene, shown->roughness[r], r, &results);
             hold_scene(f, NULL);
             lobe_scene_destroy(&scene);
         }
@@ -280,7 +295,6 @@ static const char *degrees(double angle) {
 
 static void print_table(const shown_material *shown, const relief_outcomes *reliefs,
                         int relief_count) {
-    printf("| %s | errors | logarithm | ratio |\n|---|---:|---:|---:|\n", shown->name);
     row of = everything;
     print_row("all", "suns", of, reliefs, relief_count);
     for (int r = 0; r < MAXIMUM_ROUGHNESSES && shown->roughness[r] > 0; r++) {
@@ -309,18 +323,23 @@ static void print_table(const shown_material *shown, const relief_outcomes *reli
         }
     }
     of = everything;
-    for (of.relief = 0; of.relief < relief_count; of.relief++)
-        print_row("", reliefs[of.relief].name, of, reliefs, relief_count);
-    of = everything;
     of.sky = 1;
     print_row("all", shown->shines ? "viewers" : "skies", of, reliefs, relief_count);
     for (int v = 0; v < VIEWERS; v++) {
         of.seen.viewer = v;
         print_row("- viewer", degrees(viewers[v]), of, reliefs, relief_count);
     }
-    of.seen.viewer = -1;
-    for (of.relief = 0; of.relief < relief_count; of.relief++)
-        print_row("-", reliefs[of.relief].name, of, reliefs, relief_count);
+}
+
+/// Of the relief that was measured last.
+static void print_relief(const relief_outcomes *reliefs, int relief_count) {
+    const char *name = reliefs[relief_count - 1].name;
+    row of = everything;
+    of.relief = relief_count - 1;
+    print_row(name, "suns", of, reliefs, relief_count);
+    of.sky = 1;
+    print_row(name, "otherwise", of, reliefs, relief_count);
+    fflush(stdout);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -400,12 +419,16 @@ int main(int count, char **arguments) {
     if (swapped)
         printf("| | roughness %g: mean, most | %g |\n|---|---:|---:|\n", shown->roughness[0],
                shown->roughness[1]);
+    else
+        printf("| %s | errors | logarithm | ratio |\n|---|---:|---:|---:|\n", shown->name);
     static relief_outcomes results[MAXIMUM_RELIEFS];
     for (int k = 0; k < relief_count; k++) {
         if (swapped)
             print_swapped(state, shown, reliefs[k].name, reliefs[k].heights);
-        else
+        else {
             results[k] = measure_relief(state, shown, reliefs[k].name, reliefs[k].heights);
+            print_relief(results, k + 1);
+        }
         lobe_image_free(&reliefs[k].heights);
     }
     if (!swapped)
