@@ -87,33 +87,50 @@ static bool row_equals(const unsigned char *row, uint32_t width, size_t texel, s
     return different == 0;
 }
 
-static image_metal measure_metal(const lobe_scene_image *source) {
+static image_channel measure_channel(const lobe_scene_image *source, uint32_t index) {
     const lobe_image *image = &source->image;
     const size_t texel = lobe_format_size(image->format);
     const uint32_t channels = lobe_format_channels(image->format);
     float first[4];
     if (source->on_device || !passes_image_texel(image, 0, 0, first))
-        return (image_metal){.known = true, .varies = true};
+        return (image_channel){.known = true, .varies = true};
     const size_t channel = texel / channels;
-    const unsigned char *values = (const unsigned char *)image->texels + 2 * channel;
-    for (size_t y = 0; channels > 2 && y < image->height; y++)
+    const unsigned char *values = (const unsigned char *)image->texels + index * channel;
+    for (size_t y = 0; channels > index && y < image->height; y++)
         if (!row_equals(values + y * image->width * texel, image->width, texel, channel, values))
-            return (image_metal){.known = true, .varies = true};
-    return (image_metal){.known = true, .value = first[2]};
+            return (image_channel){.known = true, .varies = true};
+    return (image_channel){.known = true, .value = first[index]};
 }
 
-/// Finds where the material is metal. Materials that share a map share what is known of it.
+/// Channel `index` of an image. Materials that share a map share what is known of it.
+static image_channel find_channel(const device_scene *scene, int32_t image, uint32_t index) {
+    image_channel *channel = &scene->channels[image].of[index];
+    if (!channel->known)
+        *channel = measure_channel(&scene->scene->images[image], index);
+    return *channel;
+}
+
+/// Finds where the material is metal.
 static void find_metal(const device_scene *scene, device_material *material) {
     const lobe_texture_use *use = material->maps[MAP_WIDTH].use;
     material->metallic = material->material->metallic;
     if (!use || material->material->model != LOBE_MATERIAL_MICROFACET || material->metallic == 0)
         return;
-    image_metal *metal = &scene->metals[use->image];
-    if (!metal->known)
-        *metal = measure_metal(&scene->scene->images[use->image]);
-    material->metallic_varies = metal->varies;
-    if (!metal->varies)
-        material->metallic *= metal->value;
+    const image_channel metal = find_channel(scene, use->image, 2);
+    material->metallic_varies = metal.varies;
+    if (!metal.varies)
+        material->metallic *= metal.value;
+}
+
+/// Finds whether its base lobes differ in width. They may from some change of texels on: then maps
+/// would have other layers, so that the host's handles would not be kept.
+static void find_widths(const device_scene *scene, device_material *material) {
+    const bool microfacets = material->material->model == LOBE_MATERIAL_MICROFACET;
+    const lobe_texture_use *use = material->maps[MAP_WIDTH].use;
+    material->widths_vary =
+        passes_device_map_has_texels(&material->maps[MAP_WIDTH]) &&
+        (!microfacets || material->material->roughness > 0) &&
+        (scene->keeps_conclusions || find_channel(scene, use->image, microfacets ? 1 : 0).varies);
 }
 
 /// Finds a factor of roughness that stands for a width map which lies apart: bins of lobes are
@@ -353,6 +370,7 @@ lobe_result passes_device_scene_upload_material(device_scene *scene, uint32_t in
     lobe_result status = find_maps(scene, material, host);
     if (status == LOBE_OK) {
         find_metal(scene, material);
+        find_widths(scene, material);
         find_width_factor(material);
         status = store_constants(scene->graph, material);
     }

@@ -20,12 +20,17 @@ typedef struct device_map {
     const lobe_image *texels; ///< in host memory, as far as there are any
 } device_map;
 
-/// The third channel of an image's texels: metal, where a material uses it so.
-typedef struct image_metal {
+/// A channel of an image's texels: metal or widths, where a material uses it so.
+typedef struct image_channel {
     bool known;  ///< since the device has these texels
     bool varies; ///< otherwise it is `value` everywhere
     float value;
-} image_metal;
+} image_channel;
+
+/// Those that a material may use: red, green, blue.
+typedef struct image_channels {
+    image_channel of[3];
+} image_channels;
 
 /// The least alpha of an image's texels, where a material uses it as a mask.
 typedef struct image_alpha {
@@ -81,6 +86,7 @@ typedef struct device_material {
     /// drawn as if there were none (passes/upload/colours/mask_alpha.h).
     bool masked;
     bool metallic_varies; ///< the width map determines where the material is metal
+    bool widths_vary;     ///< the width map makes base lobes differ in width
     /// Of lobes in maps that leave out a width map which lies apart: its mean. Else 1.
     float width_factor;
     float metallic; ///< its metallic factor, times the map's where that is constant
@@ -144,7 +150,7 @@ typedef struct device_scene {
     const lobe_allocator *allocator; ///< the device's
     lobe_texture *white;             ///< one white texel, where a map is missing
     lobe_texture **images;           ///< one for each image of the scene; NULL: not used
-    image_metal *metals;             ///< one for each image
+    image_channels *channels;        ///< one for each image
     image_alpha *alphas;             ///< one for each image
     /// One for each image: its texels in this frame, if the host gives them on the device.
     lobe_resource *given;

@@ -200,8 +200,10 @@ static bool keeps_texture(const scene_update *update, uint32_t index) {
 /// Where extent and format stay the same.
 static lobe_result update_texels(const scene_update *update, size_t n) {
     const uint32_t index = update->changes->images[n];
-    image_metal *metal = &update->scene->metals[index];
-    metal->known = metal->varies && update->scene->keeps_conclusions;
+    for (uint32_t i = 0; i < 3; i++) {
+        image_channel *channel = &update->scene->channels[index].of[i];
+        channel->known = channel->varies && update->scene->keeps_conclusions;
+    }
     update->scene->alphas[index].known = false;
     if (!keeps_texture(update, index))
         return LOBE_OK;

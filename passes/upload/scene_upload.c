@@ -26,8 +26,8 @@ static bool allocate_tables(device_scene *result) {
     const lobe_scene *scene = result->scene;
     result->images =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->images);
-    result->metals =
-        lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->metals);
+    result->channels =
+        lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->channels);
     result->alphas =
         lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->alphas);
     result->given = lobe_allocate(result->allocator, scene->image_count + 1, sizeof *result->given);
@@ -49,7 +49,7 @@ static bool allocate_tables(device_scene *result) {
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->indices);
     result->measures =
         lobe_allocate(result->allocator, scene->mesh_count + 1, sizeof *result->measures);
-    return result->images && result->metals && result->alphas && result->given &&
+    return result->images && result->channels && result->alphas && result->given &&
            result->given_waves && result->given_vertices && result->previous_vertices &&
            result->deformed && result->deformations && result->materials && result->vertices &&
            result->indices && result->measures &&
@@ -129,7 +129,7 @@ void passes_device_scene_destroy(device_scene **scene) {
     lobe_texture_destroy(&s->white);
     lobe_texture_destroy(&s->environment);
     lobe_release(s->images);
-    lobe_release(s->metals);
+    lobe_release(s->channels);
     lobe_release(s->alphas);
     lobe_release(s->given);
     lobe_release(s->given_waves);

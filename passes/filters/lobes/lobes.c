@@ -167,8 +167,8 @@ static bool needs_choice(const filter_context *context, uint32_t material) {
 
 /// Whether shading takes two widths in place of the base lobes' mean width.
 static bool needs_widths(const filter_context *context, const device_material *material) {
-    return passes_device_map_has_texels(&material->maps[MAP_WIDTH]) &&
-           !passes_widths_lie_apart(material) && passes_knob_choice(context, &widths_knob) == 0;
+    return material->widths_vary && !passes_widths_lie_apart(material) &&
+           passes_knob_choice(context, &widths_knob) == 0;
 }
 
 /// How many times the least error serves as well, for the choice of a subdivision. Clusters that

@@ -98,11 +98,12 @@ static void what_has_not_changed_is_not_recorded(void **state) {
     end(f, &maps, &scene);
 }
 
-/// Other normals, and other metal: the same everywhere, or not.
+/// Other normals and widths, and other metal: the same everywhere, or not.
 static void change_texels(lobe_scene *scene, float metal, bool varies) {
     float *normals = scene->images[0].image.texels, *widths = scene->images[1].image.texels;
     for (size_t i = 0; i < 4 * MAP * MAP; i += 4) {
         normals[i] = 1 - normals[i];
+        widths[i + 1] = 0.25f + (float)(i % 5) / 8;
         widths[i + 2] = varies ? (float)(i % 7) / 7 : metal;
     }
 }

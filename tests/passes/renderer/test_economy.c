@@ -223,6 +223,24 @@ static void layers_are_those_that_are_read(void **state) {
     }
 }
 
+/// Channels of a width map that say nothing of widths may vary.
+static void maps_of_one_width_need_no_layers_of_widths(void **state) {
+    uint64_t bytes;
+    for (int i = 0; i < 3; i++) {
+        lobe_scene *scene = scene_begin();
+        lobe_material material = half_vector_material(LOBE_DISTRIBUTION_VMF, 20);
+        lobe_texture_use *use = i == 0 ? &material.width_map : &material.metallic_roughness_map;
+        if (i > 0)
+            material = microfacet_material(LOBE_DISTRIBUTION_GGX, i == 1 ? 0.5f : 0, 1);
+        lobe_image texels = random_map(64, 32, 0.5, 1, 65);
+        for (size_t texel = 0; i < 2 && texel < (size_t)64 * 32; texel++)
+            ((float *)texels.texels)[4 * texel + (size_t)i] = 0.75f;
+        *use = scene_add_map(scene, texels);
+        material.normal_map = scene_add_map(scene, random_normal_map(64, 32, 0.3, 66));
+        assert_int_equal(layers_of_material(*state, scene, &material, "subdivision=2", &bytes), 14);
+    }
+}
+
 // ---------------------------------------------------------------------------------------------
 // Frames
 
@@ -646,6 +664,7 @@ int main(void) {
         cmocka_unit_test(a_constant_material_builds_nothing),
         cmocka_unit_test(no_normal_map_means_one_lobe),
         cmocka_unit_test(layers_are_those_that_are_read),
+        cmocka_unit_test(maps_of_one_width_need_no_layers_of_widths),
         cmocka_unit_test(a_still_scene_is_only_shaded),
         cmocka_unit_test(a_moved_camera_rebuilds_camera_space_only),
         cmocka_unit_test(knobs_of_shading_rebuild_nothing),

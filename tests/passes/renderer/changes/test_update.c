@@ -354,7 +354,7 @@ static void paint_keeps_what_was_prepared(void **state) {
 
 /// What shading knows of a map is that of the texels on the device, not of those that the host is
 /// still writing.
-static void metal_is_that_of_announced_texels(void **state) {
+static void channels_are_those_of_announced_texels(void **state) {
     static const uint32_t first = 0;
     const lobe_scene_changes material = {.materials = &first, .material_count = 1};
     fixture *f = *state;
@@ -364,18 +364,19 @@ static void metal_is_that_of_announced_texels(void **state) {
     scene_end_with_square(scene, &metal);
     const uint32_t map = (uint32_t)metal.metallic_roughness_map.image;
     const lobe_scene_changes texels = {.images = &map, .image_count = 1};
-    float *blue = (float *)scene->images[map].image.texels + 2;
+    float *first_texel = (float *)scene->images[map].image.texels;
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
     const device_material *known = &uploaded->materials[0];
     for (int n = 0; n < 2; n++) {
-        const bool varied = known->metallic_varies;
-        blue[0] += n ? -0.25f : 0.25f;
+        const bool varied = n == 1;
+        for (int channel = 1; channel < 3; channel++)
+            first_texel[channel] += n ? -0.25f : 0.25f;
         assert_int_equal(passes_device_scene_update(uploaded, &material, &f->host), LOBE_OK);
-        assert_true(known->metallic_varies == varied);
+        assert_true(known->metallic_varies == varied && known->widths_vary == varied);
         assert_int_equal(passes_device_scene_update(uploaded, &texels, &f->host), LOBE_OK);
-        assert_true(known->metallic_varies == !varied);
+        assert_true(known->metallic_varies == !varied && known->widths_vary == !varied);
     }
     assert_float_equal(known->metallic, 0.5, 1e-6);
     lobe_graph_begin(f->graph);
@@ -425,7 +426,7 @@ int main(void) {
         cmocka_unit_test(meshes_and_instances_may_change),
         cmocka_unit_test(mistakes_change_nothing),
         cmocka_unit_test(paint_keeps_what_was_prepared),
-        cmocka_unit_test(metal_is_that_of_announced_texels),
+        cmocka_unit_test(channels_are_those_of_announced_texels),
         cmocka_unit_test(layouts_are_those_of_announced_meshes),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
