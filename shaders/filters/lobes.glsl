@@ -235,21 +235,31 @@ float base_complement_share(float complement, float base_complement) {
     return clamp(base_complement / max(complement, LEAST_WEIGHT), 0.0, 1.0);
 }
 
+// How much broader than the whole the Gaussian part of a GGX lobe about spread normals is, in
+// variance. Both as broad as the whole, the parts together are up to 1.24 times too high in the
+// middle, and 0.63 at three deviations. `own`: the base lobes' share of the breadth. Found for GGX
+// convolved with a Gaussian in the plane, of which the lobe then lacks 0.004 to 0.04 instead of
+// 0.02 to 0.14 (relative L2).
+float gaussian_widening(float own) {
+    return DISTRIBUTION == DISTRIBUTION_GGX ? 1.0 + 0.56 * sqrt(own) : 1.0;
+}
+
 // A cluster's lobe, about the base lobes of one width. `complement`: 1 - |r|; `share`: of the
 // appearance.
 void make_lobe(inout lobe result, appearance fetched, int width, float complement, float share) {
     // The surface's curvature widens one lobe and many in the same way.
     float breadth = widened_complement(complement, fetched.variance);
     float concentration = concentration_from_complement(breadth);
-    float weight = fetched.lobe_scales[width] * share * von_mises_fisher_peak(concentration);
+    float weight = fetched.lobe_scales[width] * share;
     if (keeps_shape()) {
         float own = base_complement_share(breadth, fetched.complements[width]);
         result.parameter[width] = base_lobe_of_concentration(DISTRIBUTION, concentration);
         result.own_weight[width] = own * share * fetched.mixture_scale;
+        concentration /= gaussian_widening(own);
         weight *= 1.0 - own;
     }
     result.concentration[width] = concentration;
-    result.weight[width] = weight;
+    result.weight[width] = weight * von_mises_fisher_peak(concentration);
 }
 
 // The lobe of the next cluster; advances the traversal.
