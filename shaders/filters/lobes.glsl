@@ -238,7 +238,7 @@ float base_complement_share(float complement, float base_complement) {
 // How much broader than the whole the Gaussian part of a GGX lobe about spread normals is, in
 // variance. Both as broad as the whole, the parts together are up to 1.24 times too high in the
 // middle, and 0.63 at three deviations. `own`: the base lobes' share of the breadth. Found for GGX
-// convolved with a Gaussian in the plane, of which the lobe then lacks 0.004 to 0.04 instead of
+// convolved with a Gaussian in the plane, of which the lobe then lacks 0.01 to 0.04 instead of
 // 0.02 to 0.14 (relative L2).
 float gaussian_widening(float own) {
     return DISTRIBUTION == DISTRIBUTION_GGX ? 1.0 + 0.56 * sqrt(own) : 1.0;
