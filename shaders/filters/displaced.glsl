@@ -34,6 +34,7 @@ const bool BIN_WIDTHS = false;
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
+layout(constant_id = SPECIALISE_TRANSFER_WIDTHS) const bool WIDTHS_ON_RELIEF = false;
 
 layout(LOBE_DESCRIPTOR(36)) uniform sampler2DArray transfer_map;
 layout(LOBE_DESCRIPTOR(37), std140) uniform closure_block {
@@ -46,6 +47,8 @@ const bool FACETS = RELIEF && MODEL == MODEL_MICROFACET;
 // Widths of microfacets that are shaded.
 const bool WIDTHS_VARY = WIDTHS_APART || BASE_LOBES != BASE_LOBES_ALIKE;
 const uint WIDTHS = FACETS && WIDTHS_VARY ? 2u : 1u;
+// Whether each of them has facets of its own: all maps lie on the relief as its heights do.
+const bool WIDTHS_SPLIT = WIDTHS == 2u && WIDTHS_ON_RELIEF;
 // Whether pixels may see single facets. Displaced triangles are drawn where these are.
 const bool NEAR = RELIEF && MAGNIFIED && !DISPLACED;
 
@@ -104,6 +107,7 @@ struct relief_footprint {
     float seen;          // of the facets' area that faces the viewer
     float widths[WIDTHS]; // parameters of the distribution
     float shares[WIDTHS]; // of what is mirrored
+    two_widths two;       // the same, where they are two
     light_sum lights[4u * WIDTHS];
     vec3 mirrored;      // what facets mirror of light from everywhere
     float mirrored_on;  // how much of that meets other facets, relative to diffuse light
@@ -637,19 +641,24 @@ float odds_of_hiding(float area, float hidden, float expected) {
            ((expected + least) * max(area - hidden, 20.0 * least));
 }
 
+vec3 hiding_of(facet_group group) {
+    return vec3(group.size * product_of_cosines(1.0 - 0.5 * dot(group.mean, group.mean)),
+                group.hidden, group.expected);
+}
+
 // Of each bin, its Lambda over that of all facets. Level facets at the bottom are hidden more than
 // those on tops. Directions from which much is hidden count for little in the means that it is
 // found from, so that these differ by less than Lambda does: by the power of 2/3 on seven reliefs.
-void find_depths(facet_group groups[FACET_BINS], out float depths[FACET_BINS]) {
-    vec3 all = vec3(0.0);
+// `all`: the bins of all widths, of which `groups` may be one's.
+void find_depths(facet_group groups[FACET_BINS], facet_group all[FACET_BINS],
+                 out float depths[FACET_BINS]) {
+    vec3 sum = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k) {
-        facet_group group = groups[k];
-        vec3 own = vec3(group.size * product_of_cosines(1.0 - 0.5 * dot(group.mean, group.mean)),
-                        group.hidden, group.expected);
+        vec3 own = hiding_of(groups[k]);
         depths[k] = odds_of_hiding(own.x, own.y, own.z);
-        all += own;
+        sum += hiding_of(all[k]);
     }
-    float scale = 1.0 / odds_of_hiding(all.x, all.y, all.z);
+    float scale = 1.0 / odds_of_hiding(sum.x, sum.y, sum.z);
     for (uint k = 0u; k < FACET_BINS; ++k)
         depths[k] = clamp(scale * depths[k] * sqrt(scale * depths[k]), 0.05, 8.0);
 }
@@ -741,6 +750,8 @@ struct mirroring_bins {
     float shown;                // the sum of areas
     vec3 sent_on;               // see lib/displacement/second_facets.glsl
     float hidden;               // of light that smooth facets mirror, what meets other facets
+    float scale;                // of areas that are not masked, so that these are what is seen
+    float part;                 // of one width's bins: what is seen of them, over that of all
 };
 
 // Where a pixel's own facets face away from the viewer, `others` are seen behind them: the map's.
@@ -768,6 +779,62 @@ void add_facets_seen_behind(inout facet_group groups[FACET_BINS], facet_group ot
     }
 }
 
+// What the rougher of two widths has of a bin.
+struct rough_facets {
+    float share;  // of the bin's facets
+    vec2 apart;   // the mean place of its facets, less that of the others
+    float hidden; // its part of what the relief hides of the bin
+};
+
+// A bin that is rougher than the mean of all has more of the rougher width than the pixel, in
+// proportion: exact where there are no other widths. So have its place and what is hidden of it.
+void find_rough_facets(surface_point surface, facet_group groups[FACET_BINS],
+                       out rough_facets rough[FACET_BINS]) {
+    map_area area = transfer_area(surface);
+    mat2 turn = transpose(turn_of_map());
+    vec4 own[FACET_BINS], widths[FACET_BINS];
+    vec2 all = vec2(0.0);
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        own[k] = filtered_layer(facet_map, area, 2u * k);
+        widths[k] = filtered_layer(facet_map, area, 2u * FACET_BINS + k);
+        all += vec2(own[k].x, widths[k].x);
+    }
+    float mean = all.y / max(all.x, 1e-6);
+    float beyond = drawn.two.alpha.y - drawn.two.alpha.x;
+    float scale = beyond > 1e-3 ? material.roughness * material.roughness / beyond : 0.0;
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        vec4 part = drawn.two.share.y * own[k] + scale * (widths[k] - mean * own[k]);
+        float share = clamp(part.x / max(own[k].x, 1e-6), 0.0, 1.0);
+        float both = share * (1.0 - share);
+        rough[k].share = share;
+        rough[k].hidden = own[k].w > 1e-6 ? clamp(part.w / own[k].w, 0.0, 1.0) : share;
+        rough[k].apart = vec2(0.0);
+        if (both < 1e-3)
+            continue;
+        // Both means are as far apart as the bin's own spread allows.
+        const float MOST = 0.75;
+        vec2 apart = turn * (part.yz - share * own[k].yz) / (max(own[k].x, 1e-6) * both);
+        vec3 places = groups[k].places;
+        float determinant = max(places.x * places.y - places.z * places.z, 1e-12);
+        float square = both * (places.y * apart.x * apart.x + places.x * apart.y * apart.y -
+                               2.0 * places.z * apart.x * apart.y) / determinant;
+        rough[k].apart = apart * min(1.0, sqrt(MOST / max(square, 1e-6)));
+    }
+}
+
+// A bin's facets of one width, as if all of the pixel had this.
+facet_group facets_of_width(facet_group group, rough_facets rough, uint width) {
+    float share = width == 0u ? 1.0 - rough.share : rough.share;
+    float hidden = width == 0u ? 1.0 - rough.hidden : rough.hidden;
+    float scale = 1.0 / max(drawn.two.share[width], 1e-3);
+    group.mean += (width == 0u ? -rough.share : 1.0 - rough.share) * rough.apart;
+    group.places -= rough.share * (1.0 - rough.share) * second_moments_of(rough.apart);
+    group.size *= scale * share;
+    group.hidden *= scale * hidden;
+    group.expected *= scale * share;
+    return group;
+}
+
 // All but the areas of one width.
 mirroring_bins find_bins(surface_point surface) {
     map_area area = transfer_area(surface);
@@ -783,7 +850,7 @@ mirroring_bins find_bins(surface_point surface) {
     for (uint k = 0u; k < FACET_BINS; ++k)
         bins.facets[k] = spread_of(bins.groups[k]);
     drawn.seen = seen_part(bins.facets, drawn.viewer);
-    find_depths(bins.groups, bins.depths);
+    find_depths(bins.groups, bins.groups, bins.depths);
     float facing = 0.0, masked = 0.0, kept = 1e-6;
     bins.sent_on = vec3(0.0);
     for (uint k = 0u; k < FACET_BINS; ++k) {
@@ -807,8 +874,34 @@ mirroring_bins find_bins(surface_point surface) {
     bins.hidden = kept / max(masked, 1e-6);
     // Together they are what is seen.
     float scale = drawn.seen * facing / max(masked, 1e-6);
+    bins.scale = scale;
+    bins.part = 1.0;
     for (uint k = 0u; k < FACET_BINS; ++k)
         bins.seen[k] *= scale;
+    return bins;
+}
+
+// The bins of one width. What hides them is all facets.
+mirroring_bins bins_of_width(mirroring_bins all, rough_facets rough[FACET_BINS], uint width) {
+    mirroring_bins bins = all;
+    for (uint k = 0u; k < FACET_BINS; ++k)
+        bins.groups[k] = facets_of_width(all.groups[k], rough[k], width);
+    find_depths(bins.groups, all.groups, bins.depths);
+    float own = 0.0, everything = 1e-6;
+    for (uint k = 0u; k < FACET_BINS; ++k) {
+        everything += all.seen[k];
+        bins.seen[k] = 0.0;
+        normal_spread normals = normals_of(bins.groups[k]);
+        normal_spread seen = seen_normals(normals, drawn.viewer, bins.shares[k]);
+        if (bins.groups[k].size * bins.shares[k] <= 1e-4)
+            continue;
+        bins.seen[k] = all.scale * facing_area(spread_of(bins.groups[k]), drawn.viewer) /
+                       (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
+        light_moments hidden;
+        bins.lit[k] = lit_part(all.facets, bins.depths[k], seen, hidden);
+        own += bins.seen[k];
+    }
+    bins.part = own / everything;
     return bins;
 }
 
@@ -850,6 +943,7 @@ void find_widths(appearance fetched, surface_point surface) {
         return;
     two_widths found = find_two_widths(base_lobe_concentration(DISTRIBUTION, fetched.base.width),
                                        fetch_alpha_moments(lobe_area(surface), surface));
+    drawn.two = found;
     for (uint i = 0u; i < WIDTHS; ++i) {
         drawn.widths[i] = base_lobe_of_concentration(DISTRIBUTION,
                                                      2.0 / (found.alpha[i] * found.alpha[i]));
@@ -862,7 +956,7 @@ void find_widths(appearance fetched, surface_point surface) {
 // that none is lost: relative to diffuse light, of which a white relief sends on what it does not
 // reflect at once. Adds what one width has of it.
 void add_mirrored_on(base_material base, mirroring_bins bins, float share) {
-    float kept = 1.0 - clamp(bins.shown / (drawn.viewer.z * drawn.visible), 0.0, 1.0);
+    float kept = max(bins.part - bins.shown / (drawn.viewer.z * drawn.visible), 0.0);
     vec3 one = vec3(1.0), colours = COLOURED ? squared_colours(base.specular) : one;
     float diffuse = dot(indirect_of_white_sky(), one) / dot(colours, one);
     drawn.mirrored += share * mirrored_part(base);
@@ -890,7 +984,13 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
     for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i)
         hiding[i] = lambda_of_seen(drawn.seen) +
                     lambda_of_seen(seen_part(bins.facets, incoming[i]));
+    mirroring_bins all = bins;
+    rough_facets rough[FACET_BINS];
+    if (WIDTHS_SPLIT)
+        find_rough_facets(surface, bins.groups, rough);
     for (uint w = 0u; w < WIDTHS; ++w) {
+        if (WIDTHS_SPLIT)
+            bins = bins_of_width(all, rough, w);
         base_material base = fetched.base;
         base.width = drawn.widths[w];
         find_areas(bins, base.width, false);
@@ -997,8 +1097,14 @@ vec3 reflect_facets_of_relief(appearance fetched, surface_point surface) {
     find_widths(fetched, surface);
     mirroring_bins bins = find_bins(surface);
     find_axis_of_sent_on(bins, true);
+    mirroring_bins all = bins;
+    rough_facets rough[FACET_BINS];
+    if (WIDTHS_SPLIT)
+        find_rough_facets(surface, bins.groups, rough);
     vec3 sum = vec3(0.0);
     for (uint w = 0u; w < WIDTHS; ++w) {
+        if (WIDTHS_SPLIT)
+            bins = bins_of_width(all, rough, w);
         base_material base = fetched.base;
         base.width = drawn.widths[w];
         find_areas(bins, base.width, true);

@@ -1,6 +1,8 @@
 #include "passes/filters/displaced/cells.h"
 
 #include "passes/filters/displaced/facet_colours.h"
+#include "passes/maps/base_maps.h"
+#include "passes/upload/material_maps.h"
 
 /// What the passes of a window share.
 typedef struct cells_build {
@@ -55,7 +57,7 @@ static lobe_resource add_bounce(const cells_build *build, uint32_t channel, bool
                                         .constants = &constants,
                                         .constants_size = sizeof constants,
                                         .specialisation = kind.items,
-                                        .specialisation_count = 2});
+                                        .specialisation_count = 3});
     return light;
 }
 
@@ -73,8 +75,8 @@ uint32_t passes_transfer_layers(const transfer_kind *kind) {
            (kind->coloured ? 2 * TRANSFER_FURTHER_LAYERS(kind->order) : 0);
 }
 
-uint32_t passes_facet_layers(void) {
-    return 2 * FACET_BINS;
+uint32_t passes_facet_layers(const transfer_kind *kind) {
+    return (kind->widths ? 3 : 2) * FACET_BINS;
 }
 
 /// Binds the layers of one channel.
@@ -98,7 +100,7 @@ static void dispatch(const cells_build *build, lobe_pass *pass, const char *shad
                                               .constants = &constants,
                                               .constants_size = sizeof constants,
                                               .specialisation = kind.items,
-                                              .specialisation_count = 2});
+                                              .specialisation_count = 3});
 }
 
 static lobe_pass *add_transfer(const cells_build *build, uint32_t channel) {
@@ -125,6 +127,14 @@ static lobe_pass *add_normals(const cells_build *build) {
     lobe_pass_read(pass,
                    &(lobe_binding){.name = "transfer_words", .resource = source->seen->words});
     passes_reduced_map_write(build->target->facets, pass, "facet_map", 0);
+    if (source->kind->widths)
+        passes_base_map_read(source->context, &source->context->scene->materials[source->material],
+                             MAP_WIDTH, "width_map", pass);
+    else
+        lobe_pass_read(pass,
+                       &(lobe_binding){.name = "width_map",
+                                       .resource = lobe_graph_import_texture(
+                                           source->context->graph, source->context->scene->white)});
     dispatch(build, pass, "filters/displaced/facet_normals.comp", 0);
     return pass;
 }

@@ -33,7 +33,7 @@ typedef struct cell_passes {
 
 /// Layers of the map of transfer, and of that of facets' normals.
 uint32_t passes_transfer_layers(const transfer_kind *kind);
-uint32_t passes_facet_layers(void);
+uint32_t passes_facet_layers(const transfer_kind *kind);
 
 /// Adds facet_colours, facet_bounces, cell_transfer and facet_normals.
 cell_passes passes_cells_add(const cells_source *source, const cells_target *target);

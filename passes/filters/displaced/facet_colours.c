@@ -23,6 +23,11 @@ bool passes_has_coloured_relief(const device_material *material) {
            (!material->metallic_varies || passes_lies_on_relief(material, MAP_WIDTH));
 }
 
+bool passes_has_widths_on_relief(const device_material *material) {
+    return passes_has_relief(material) && material->model == LOBE_MATERIAL_MICROFACET &&
+           material->widths_vary && passes_lies_on_relief(material, MAP_WIDTH);
+}
+
 /// At how many points, along a side, colours are read in a facet so that none of a map is missed.
 static uint32_t colour_points(const device_material *material) {
     const device_map *heights = &material->maps[MAP_HEIGHT];

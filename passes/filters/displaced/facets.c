@@ -132,7 +132,7 @@ static lobe_pass *add_band(const facets_request *request, const banded_pass *ban
                                         .constants = &constants,
                                         .constants_size = sizeof constants,
                                         .specialisation = kind.items,
-                                        .specialisation_count = 2});
+                                        .specialisation_count = 3});
     return pass;
 }
 

@@ -15,14 +15,17 @@ static uint64_t kind_digest(const transfer_kind *kind) {
                                 kind->normals,
                                 (uint64_t)kind->format,
                                 kind->coloured,
+                                kind->widths,
                                 passes_transfer_facets(kind)};
     return passes_digest_bytes(TRANSFER_FILE_VERSION, numbers, sizeof numbers);
 }
 
 /// The maps that are read, by MAP_...
 static bool is_read(const device_material *material, const transfer_kind *kind, uint32_t map) {
-    return map == MAP_HEIGHT || (kind->coloured && material->maps[map].use &&
-                                 (map == MAP_BASE_COLOUR || map == MAP_WIDTH));
+    if (map == MAP_HEIGHT || !material->maps[map].use)
+        return map == MAP_HEIGHT;
+    return (kind->coloured && (map == MAP_BASE_COLOUR || map == MAP_WIDTH)) ||
+           (kind->widths && map == MAP_WIDTH);
 }
 
 /// The numbers that are read.

@@ -28,7 +28,7 @@ static uint32_t part_count(const facet_window *window, const transfer_kind *kind
 
 /// Tiles of the map of transfer, and of that of facets' normals.
 static map_tile tile_of(const facet_window *window, const transfer_kind *kind, uint32_t image) {
-    const uint32_t layers = image == 0 ? passes_transfer_layers(kind) : passes_facet_layers();
+    const uint32_t layers = image == 0 ? passes_transfer_layers(kind) : passes_facet_layers(kind);
     return (map_tile){{kind->format, window->columns, window->rows, layers, 1},
                       window->first_column,
                       window->first_row};
@@ -63,7 +63,7 @@ uint64_t passes_transfer_bytes(const device_material *material, const transfer_k
     reduced_map map = {.width = passes_half_extent(heights->width),
                        .height = passes_half_extent(heights->height),
                        .layers = passes_transfer_layers(kind) +
-                                 (kind->normals ? passes_facet_layers() : 0)};
+                                 (kind->normals ? passes_facet_layers(kind) : 0)};
     map.levels = passes_level_count(map.width, map.height);
     return passes_reduced_map_bytes(&map, kind->format);
 }
@@ -220,7 +220,7 @@ static void add_closure(const transfer_build *build, transfer_map *transfer) {
     const kind_specialisation kind = passes_transfer_specialisation(build->request->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/transfer_closure.comp",
                                               .specialisation = kind.items,
-                                              .specialisation_count = 2});
+                                              .specialisation_count = 3});
 }
 
 transfer_map passes_transfer_declare(const filter_context *context, uint32_t index,
@@ -241,7 +241,7 @@ transfer_map passes_transfer_declare(const filter_context *context, uint32_t ind
         return map;
     snprintf(name, sizeof name, "normals of facets of material %u", index);
     map.facets = passes_reduced_map_declare(graph, name, kind->format, heights->width,
-                                            heights->height, passes_facet_layers(), true);
+                                            heights->height, passes_facet_layers(kind), true);
     return map;
 }
 

@@ -8,6 +8,7 @@
 
 #include "interface/displacement/relief.h"
 #include "interface/mirrored.h"
+#include "lib/displacement/facet_points.glsl"
 #include "lib/map/base_texel.glsl"
 
 layout(local_size_x = 64) in;
@@ -40,14 +41,6 @@ facet_colours colours_at(vec2 point) {
     return facet_colours(diffuse, mirrored + diffuse);
 }
 
-// The middle of part `i` of `points` * `points` triangles that the facet below the diagonal is
-// divided into.
-vec2 part_of_facet(uint i) {
-    uint column = uint(sqrt(float(i) + 0.5)), row = i - column * column;
-    vec2 inside = (row & 1u) == 0u ? vec2(2.0, 1.0) / 3.0 : vec2(1.0, 2.0) / 3.0;
-    return (vec2(column, row / 2u) + inside) / float(constants.points);
-}
-
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= 2u * constants.width * constants.height)
@@ -58,9 +51,7 @@ void main() {
     facet_colours mean = facet_colours(vec3(0.0), vec3(0.0));
     uint count = constants.points * constants.points;
     for (uint i = 0u; i < count; ++i) {
-        vec2 inside = part_of_facet(i);
-        if ((index & 1u) != 0u)
-            inside = inside.yx;
+        vec2 inside = point_in_facet(i, constants.points, (index & 1u) != 0u);
         facet_colours colours =
             colours_at((vertex + inside) / vec2(constants.relief_width, constants.relief_height));
         mean.diffuse += colours.diffuse / float(count);

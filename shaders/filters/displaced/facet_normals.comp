@@ -7,8 +7,10 @@
 #include "filters/displaced/facets.glsl"
 #include "filters/displaced/facet_words.glsl"
 #include "lib/displacement/facet_bins.glsl"
+#include "lib/displacement/facet_points.glsl"
 #include "lib/displacement/transfer_basis.glsl"
 #include "lib/lobe/lambert_plane.glsl"
+#include "lib/map/base_texel.glsl"
 #include "lib/map/box_reduction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,9 +19,29 @@ layout(set = 0, binding = 5, std430) readonly buffer basis_block {
     transfer_basis_constants basis;
 };
 layout(set = 0, binding = 8) uniform writeonly image2DArray facet_map;
+layout(set = 0, binding = 9) uniform sampler2D width_map;
+
+layout(constant_id = SPECIALISE_TRANSFER_WIDTHS) const bool WIDTHS = false;
+
+const uint LAYERS = (WIDTHS ? 3u : 2u) * FACET_BINS;
 
 vec4 groups[2 * FACET_BINS];
-vec4 layers[2 * FACET_BINS];
+vec4 layers[3 * FACET_BINS];
+
+// Of the map's roughness.
+float mean_square_roughness(facet here) {
+    const uint MOST_POINTS = 8u;
+    vec2 size = vec2(relief_size()), texels = ceil(vec2(textureSize(width_map, 0)) / size);
+    uint points = clamp(uint(max(texels.x, texels.y)), 1u, MOST_POINTS);
+    float sum = 0.0;
+    for (uint i = 0u; i < points * points; ++i) {
+        vec2 inside = point_in_facet(i, points, here.upper);
+        float roughness =
+            clamp(base_texel(width_map, (vec2(here.quad) + 0.5 + inside) / size).g, 0.0, 1.0);
+        sum += roughness * roughness;
+    }
+    return sum / float(points * points);
+}
 
 float expected_hidden(vec3 normal) {
     float sum = 0.0;
@@ -30,17 +52,22 @@ float expected_hidden(vec3 normal) {
 
 void add_facet(uint index, float weight) {
     // The relief's y runs against the tangent frame's.
-    vec3 normal = vec3(1.0, -1.0, 1.0) * facet_of(index).normal;
+    facet here = facet_of(index);
+    vec3 normal = vec3(1.0, -1.0, 1.0) * here.normal;
     float area = weight / normal.z, parts[FACET_BINS];
     vec2 place = plane_from_direction(normal);
     // The first polynomial is the cosine to the carrier.
     float hidden = product_of_cosines(normal.z) - TRANSFER_COSINE * facet_coefficient(index, 0u);
     float expected = expected_hidden(normal);
+    float alpha = WIDTHS ? mean_square_roughness(here) : 0.0;
     facet_parts(place, groups, parts);
     for (uint k = 0u; k < FACET_BINS; ++k) {
         vec2 d = place - groups[2u * k].xy;
-        layers[2u * k] += parts[k] * area * vec4(1.0, d, max(hidden, 0.0));
+        vec4 own = parts[k] * area * vec4(1.0, d, max(hidden, 0.0));
+        layers[2u * k] += own;
         layers[2u * k + 1u] += parts[k] * area * vec4(d * d, d.x * d.y, expected);
+        if (WIDTHS)
+            layers[2u * FACET_BINS + k] += alpha * own;
     }
 }
 
@@ -49,7 +76,7 @@ void main() {
     uvec2 target = texel - uvec2(transfer.target_column, transfer.target_row);
     if (any(greaterThanEqual(target, uvec2(imageSize(facet_map).xy))))
         return;
-    for (uint i = 0u; i < 2u * FACET_BINS; ++i)
+    for (uint i = 0u; i < LAYERS; ++i)
         layers[i] = vec4(0.0);
     groups = basis.groups;
     ivec2 size = relief_size();
@@ -61,6 +88,6 @@ void main() {
             add_facet(lower + 1u, 0.5 * columns[x] * rows[y]);
         }
     }
-    for (uint i = 0u; i < 2u * FACET_BINS; ++i)
+    for (uint i = 0u; i < LAYERS; ++i)
         imageStore(facet_map, ivec3(target, i), layers[i]);
 }

@@ -136,6 +136,10 @@ INTERFACE_OFFSET(transfer_closure_constants, direct, 1832)
 // and p the part that the bin has of a facet (lib/displacement/facet_bins.glsl). With the cosines
 // of a direction to the facet and to the carrier, h is the integral of their product over what the
 // relief hides from the facet, and e what it would be if the relief hid as much of it as of others.
+//
+// Where roughness varies over the relief, a layer more of each bin, after all others: means of g p
+// a, g p a d_x, g p a d_y, g p a h, with g the facet's mean square of the map's roughness: alpha,
+// but for the material's factor.
 
 // Push constants of the passes between.
 //
@@ -199,6 +203,8 @@ INTERFACE_OFFSET(colour_constants, relief_height, 44)
 #define SPECIALISE_TRANSFER_COLOURED (SPECIALISE_FILTER + 33)
 // bool: pixels may see less than two of the height map's texels
 #define SPECIALISE_TRANSFER_MAGNIFIED (SPECIALISE_FILTER + 34)
+// bool: microfacets' roughness varies over the relief
+#define SPECIALISE_TRANSFER_WIDTHS (SPECIALISE_FILTER + 39)
 
 // bool: the material has a relief
 #define SPECIALISE_RELIEF (SPECIALISE_FILTER + 30)
