@@ -153,8 +153,8 @@ static double parameter_of(lobe_distribution distribution, double concentration)
 }
 
 /// Of a cluster of microfacets, as a distribution of projected area one: von Mises-Fisher as far as
-/// the normals are spread, of the base lobes' own shape as far as those are
-/// (shaders/filters/lobes.glsl).
+/// the normals are spread, of the base lobes' own shape as far as those are. Beside GGX, the former
+/// is broader than the whole (shaders/filters/lobes.glsl).
 static double evaluate_microfacet_cluster(const evaluation *e, uint32_t layer) {
     const double *moment = moment_of(e, layer);
     lobe_distribution distribution = e->material->distribution;
@@ -167,11 +167,11 @@ static double evaluate_microfacet_cluster(const evaluation *e, uint32_t layer) {
     double kappa = reference_concentration_from_complement(complement);
     double length = reference_length(moment);
     const double axis[3] = {moment[0] / length, moment[1] / length, moment[2] / length};
-    double value = (1 - own) / area *
-                   reference_evaluate_cluster(e->mixture, e->x, e->y, layer, e->half_vector);
-    return value + own * moment[3] *
-                       reference_normal_distribution(distribution, axis, e->half_vector,
-                                                     parameter_of(distribution, kappa));
+    double widening = distribution == LOBE_DISTRIBUTION_GGX ? 1 + 0.56 * sqrt(own) : 1;
+    double spread = reference_von_mises_fisher(e->half_vector, axis, kappa / widening) / area;
+    double base = reference_normal_distribution(distribution, axis, e->half_vector,
+                                                parameter_of(distribution, kappa));
+    return moment[3] * ((1 - own) * spread + own * base);
 }
 
 static void add_cluster(evaluation *e, uint32_t layer, double share) {
