@@ -57,7 +57,7 @@ static lobe_resource add_bounce(const cells_build *build, uint32_t channel, bool
                                         .constants = &constants,
                                         .constants_size = sizeof constants,
                                         .specialisation = kind.items,
-                                        .specialisation_count = 3});
+                                        .specialisation_count = KIND_CONSTANTS});
     return light;
 }
 
@@ -100,7 +100,7 @@ static void dispatch(const cells_build *build, lobe_pass *pass, const char *shad
                                               .constants = &constants,
                                               .constants_size = sizeof constants,
                                               .specialisation = kind.items,
-                                              .specialisation_count = 3});
+                                              .specialisation_count = KIND_CONSTANTS});
 }
 
 static lobe_pass *add_transfer(const cells_build *build, uint32_t channel) {

@@ -132,7 +132,7 @@ static lobe_pass *add_band(const facets_request *request, const banded_pass *ban
                                         .constants = &constants,
                                         .constants_size = sizeof constants,
                                         .specialisation = kind.items,
-                                        .specialisation_count = 3});
+                                        .specialisation_count = KIND_CONSTANTS});
     return pass;
 }
 

@@ -22,10 +22,9 @@ static uint64_t kind_digest(const transfer_kind *kind) {
 
 /// The maps that are read, by MAP_...
 static bool is_read(const device_material *material, const transfer_kind *kind, uint32_t map) {
-    if (map == MAP_HEIGHT || !material->maps[map].use)
-        return map == MAP_HEIGHT;
-    return (kind->coloured && (map == MAP_BASE_COLOUR || map == MAP_WIDTH)) ||
-           (kind->widths && map == MAP_WIDTH);
+    const bool colours = kind->coloured && (map == MAP_BASE_COLOUR || map == MAP_WIDTH);
+    const bool widths = kind->widths && map == MAP_WIDTH;
+    return map == MAP_HEIGHT || (material->maps[map].use && (colours || widths));
 }
 
 /// The numbers that are read.

@@ -19,10 +19,12 @@ typedef struct transfer_kind {
 struct transfer_constants passes_transfer_constants(const relief *relief,
                                                     const transfer_kind *kind);
 
+enum { KIND_CONSTANTS = 3 };
+
 /// The map's number of functions, and whether its colours and widths vary, as constants of a
 /// shader.
 typedef struct kind_specialisation {
-    lobe_specialisation items[3];
+    lobe_specialisation items[KIND_CONSTANTS];
 } kind_specialisation;
 
 kind_specialisation passes_transfer_specialisation(const transfer_kind *kind);

@@ -220,7 +220,7 @@ static void add_closure(const transfer_build *build, transfer_map *transfer) {
     const kind_specialisation kind = passes_transfer_specialisation(build->request->kind);
     lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/transfer_closure.comp",
                                               .specialisation = kind.items,
-                                              .specialisation_count = 3});
+                                              .specialisation_count = KIND_CONSTANTS});
 }
 
 transfer_map passes_transfer_declare(const filter_context *context, uint32_t index,
