@@ -37,12 +37,13 @@ typedef struct engine_graph_resource {
     bool is_image;
     lobe_format format;
     uint32_t width, height, layers, levels, samples;
-    uint64_t size;  ///< buffers: bytes
-    VkFlags usage;  ///< of the image or buffer, united over all passes
-    bool cube;      ///< some shader reads it as a cube
-    bool shared;    ///< other graphs may have its content
-    bool permanent; ///< kept as long as the graph
-    bool evolves;   ///< see lobe_buffer_description
+    uint32_t first_layer, first_level; ///< of the host's image, from which on it is this resource
+    uint64_t size;                     ///< buffers: bytes
+    VkFlags usage;                     ///< of the image or buffer, united over all passes
+    bool cube;                         ///< some shader reads it as a cube
+    bool shared;                       ///< other graphs may have its content
+    bool permanent;                    ///< kept as long as the graph
+    bool evolves;                      ///< see lobe_buffer_description
     uint32_t settles;
     size_t rest_offset;
     uint64_t asked; ///< the number of the late data that say whether it rests; 0: none

@@ -14,10 +14,23 @@ lobe_format lobe_vulkan_format(VkFormat format) {
 // ---------------------------------------------------------------------------------------------
 // Declaration
 
-static bool is_imported(const lobe_graph *graph, VkImage image) {
-    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++)
-        if (graph->frame.resources[i].host && graph->frame.resources[i].host->image == image)
+static uint32_t at_least_one(uint32_t value) {
+    return value ? value : 1;
+}
+
+static bool overlaps(uint32_t first, uint32_t count, uint32_t other_first, uint32_t other_count) {
+    return first < other_first + at_least_one(other_count) &&
+           other_first < first + at_least_one(count);
+}
+
+static bool is_imported(const lobe_graph *graph, const lobe_vulkan_image *image) {
+    for (uint32_t i = 0; i < graph->frame.dependencies.resource_count; i++) {
+        const lobe_vulkan_image *other = graph->frame.resources[i].host;
+        if (other && other->image == image->image &&
+            overlaps(image->first_layer, image->layers, other->first_layer, other->layers) &&
+            overlaps(image->first_level, image->levels, other->first_level, other->levels))
             return true;
+    }
     return false;
 }
 
@@ -29,7 +42,7 @@ static bool check_image(lobe_graph *graph, const lobe_vulkan_image *image, const
     else if (lobe_vulkan_format(image->format) == LOBE_FORMAT_NONE)
         lobe_graph_fail(graph, LOBE_ERROR_UNSUPPORTED,
                         "host image '%s': VkFormat %d is not supported", name, (int)image->format);
-    else if (is_imported(graph, image->image))
+    else if (is_imported(graph, image))
         lobe_graph_fail(graph, LOBE_ERROR_GRAPH, "host image '%s' is imported twice in one frame",
                         name);
     return graph->frame.result == LOBE_OK;
@@ -40,7 +53,8 @@ static engine_stamp content_of(const lobe_graph *graph, const engine_graph_resou
     const uint64_t numbers[] = {ENGINE_GRAPH_HOST_IMAGE, (uint64_t)(uintptr_t)image->image,
                                 image->content,          resource->format,
                                 resource->width,         resource->height,
-                                resource->layers,        resource->levels};
+                                resource->layers,        resource->levels,
+                                resource->first_layer,   resource->first_level};
     return engine_graph_lent_content(graph, image->content, numbers, sizeof numbers);
 }
 
@@ -64,8 +78,10 @@ lobe_resource lobe_graph_import_image(lobe_graph *graph, const lobe_vulkan_image
                                       .format = lobe_vulkan_format(image->format),
                                       .width = image->width,
                                       .height = image->height,
-                                      .layers = image->layers ? image->layers : 1,
-                                      .levels = image->levels ? image->levels : 1,
+                                      .layers = at_least_one(image->layers),
+                                      .levels = at_least_one(image->levels),
+                                      .first_layer = image->first_layer,
+                                      .first_level = image->first_level,
                                       .samples = 1,
                                       .host = kept};
     bool has_content = image->layout != VK_IMAGE_LAYOUT_UNDEFINED;

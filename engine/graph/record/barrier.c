@@ -35,6 +35,17 @@ static VkImageLayout layout_of(const engine_graph_resource *resource, engine_lay
     return resource->host->final_layout ? resource->host->final_layout : VK_IMAGE_LAYOUT_GENERAL;
 }
 
+VkImageSubresourceRange engine_graph_vulkan_range(const engine_graph_resource *resource,
+                                                  const lobe_range *range) {
+    return (VkImageSubresourceRange){
+        .aspectMask = engine_format_aspect(resource->format),
+        .baseMipLevel = resource->first_level + range->first_level,
+        .levelCount = range->level_count,
+        .baseArrayLayer = resource->first_layer + range->first_layer,
+        .layerCount = range->layer_count,
+    };
+}
+
 // ---------------------------------------------------------------------------------------------
 // Barriers
 
@@ -99,9 +110,7 @@ static void add_image(const lobe_graph *graph, const engine_dependency_barrier *
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = resource->object->image,
-        .subresourceRange = {engine_format_aspect(resource->format), barrier->range.first_level,
-                             barrier->range.level_count, barrier->range.first_layer,
-                             barrier->range.layer_count},
+        .subresourceRange = engine_graph_vulkan_range(resource, &barrier->range),
     };
 }
 

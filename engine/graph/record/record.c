@@ -195,8 +195,9 @@ static VkExtent3D level_extent(const engine_graph_resource *image, uint32_t leve
 
 static VkImageSubresourceLayers layers_of(const engine_graph_resource *image,
                                           const lobe_range *range, uint32_t n) {
-    return (VkImageSubresourceLayers){engine_format_aspect(image->format), range->first_level + n,
-                                      range->first_layer, range->layer_count};
+    return (VkImageSubresourceLayers){engine_format_aspect(image->format),
+                                      image->first_level + range->first_level + n,
+                                      image->first_layer + range->first_layer, range->layer_count};
 }
 
 static void copy_images(lobe_graph *graph, const engine_graph_command *command) {
@@ -231,15 +232,12 @@ static void record_copy(lobe_graph *graph, const engine_graph_command *command) 
 static void fill_image(lobe_graph *graph, const engine_graph_command *command) {
     const engine_graph_resource *target = resource_at(graph, command->target_access);
     const engine_dependency_access *access = access_at(graph, command->target_access);
-    VkImageAspectFlags aspect = engine_format_aspect(target->format);
-    const VkImageSubresourceRange range = {aspect, access->range.first_level,
-                                           access->range.level_count, access->range.first_layer,
-                                           access->range.layer_count};
+    const VkImageSubresourceRange range = engine_graph_vulkan_range(target, &access->range);
     VkImageLayout layout = engine_graph_vulkan_layout(access->state.layout);
     VkClearColorValue colour;
     memcpy(colour.float32, command->value, sizeof colour.float32);
     const VkClearDepthStencilValue depth = {.depth = command->value[0]};
-    if (aspect == VK_IMAGE_ASPECT_DEPTH_BIT)
+    if (range.aspectMask == VK_IMAGE_ASPECT_DEPTH_BIT)
         graph->device->api.vkCmdClearDepthStencilImage(graph->frame.commands, target->object->image,
                                                        layout, &depth, 1, &range);
     else

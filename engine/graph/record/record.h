@@ -32,4 +32,8 @@ void engine_graph_record_last_barrier(lobe_graph *graph);
 /// Vulkan's name of a layout, for any resource but a host image at the frame's edges (barrier.c).
 VkImageLayout engine_graph_vulkan_layout(engine_layout layout);
 
+/// A range of an image in numbers of the Vulkan image, of which a host may lend a part (barrier.c).
+VkImageSubresourceRange engine_graph_vulkan_range(const engine_graph_resource *resource,
+                                                  const lobe_range *range);
+
 #endif

@@ -76,9 +76,9 @@ static lobe_result add_view(lobe_device *device, const engine_graph_resource *re
         .image = resource->object->image,
         .format = resource->format,
         .type = type,
-        .first_level = range->first_level,
+        .first_level = resource->first_level + range->first_level,
         .level_count = range->level_count,
-        .first_layer = range->first_layer,
+        .first_layer = resource->first_layer + range->first_layer,
         .layer_count = range->layer_count,
     };
     *added = (engine_graph_view){.type = type, .range = *range};

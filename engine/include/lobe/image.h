@@ -36,6 +36,10 @@ typedef enum lobe_format {
     LOBE_FORMAT_BGRA8_UNORM, ///< common for displays
     LOBE_FORMAT_BGRA8_SRGB,
     LOBE_FORMAT_D32_FLOAT, ///< depth, device images only
+    // Channels packed into 32 bits, the first in the lowest: device images only.
+    LOBE_FORMAT_RG11B10_FLOAT, ///< not negative
+    LOBE_FORMAT_RGB10A2_UNORM,
+    LOBE_FORMAT_BGR10A2_UNORM,
     // Compressed in blocks of 4x4 texels: images of a host's Vulkan only, for sampling.
     LOBE_FORMAT_BC1_UNORM, ///< with alpha of one bit
     LOBE_FORMAT_BC1_SRGB,

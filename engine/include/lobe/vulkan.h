@@ -151,8 +151,12 @@ struct lobe_vulkan_image {
     const char *name;        ///< for errors, dumps and labels; copied; NULL: "host image"
     VkImage image;           ///< two-dimensional, one sample per texel
     VkFormat format;         ///< one that lobe_vulkan_format knows
-    uint32_t width, height;  ///< texels of level 0
-    uint32_t layers, levels; ///< 0 means 1
+    uint32_t width, height;  ///< texels of the first level
+    uint32_t layers, levels; ///< how many of them frames use; 0 means 1
+    /// From which on: a frame may draw into a layer of an array, such as one eye's, or into a level
+    /// of a MIP chain. The layouts below are those of the part that is used; the rest of the image
+    /// is left alone. One frame may import several parts of an image that have nothing in common.
+    uint32_t first_layer, first_level;
     VkImageUsageFlags usage; ///< those it was created with; must allow what passes do with it
     /// Its layout when the frame starts. UNDEFINED: its content is not needed. The host's earlier
     /// work on the image must be ordered before the frame: by the submission's semaphores, or by
@@ -164,8 +168,9 @@ struct lobe_vulkan_image {
     VkImageLayout final_layout;
     VkPipelineStageFlags2 final_stages;
     VkAccessFlags2 final_access;
-    /// A two-dimensional view of level 0 of layer 0, in the image's format and with all its usages;
-    /// must live as long as the image. VK_NULL_HANDLE: lobe creates one in every frame.
+    /// A two-dimensional view of the first level of the first layer, in the image's format and with
+    /// all its usages; must live as long as the image. VK_NULL_HANDLE: lobe creates one in every
+    /// frame.
     VkImageView view;
     /// Which content the image has when the frame starts: a number that the host changes whenever
     /// the host or a frame has written to the image, or another image may have taken over its

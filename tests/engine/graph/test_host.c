@@ -93,6 +93,14 @@ static void expect(fixture *f, const host_image *image, float low_left_red, floa
     assert_float_equal(texels[1][SIZE - 2][2], up_right_blue, 0);
 }
 
+/// All texels have this blue.
+static void expect_all(fixture *f, const host_image *image, float blue) {
+    float texels[SIZE][SIZE][4];
+    host_read(&f->host, image, texels, sizeof texels);
+    for (int i = 0; i < SIZE * SIZE; i++)
+        assert_float_equal(texels[i / SIZE][i % SIZE][2], blue, 0);
+}
+
 static void check(fixture *f, lobe_result result) {
     if (result != LOBE_OK)
         fail_msg("%s", f->host.recorder.last_error);
@@ -203,9 +211,54 @@ static void an_unused_image_changes_its_layout(void **state) {
     host_image_destroy(&f->host, &image);
 }
 
+/// A layer of an array, on a level of its MIP chain; other parts stay as they were.
+static void a_frame_draws_into_a_part_of_the_hosts_image(void **state) {
+    enum { LAYERS = 3, LEVELS = 2 };
+    fixture *f = *state;
+    host_image image = host_image_create_array(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, 2 * SIZE,
+                                               2 * SIZE, LAYERS, LEVELS, all_usages);
+    VkCommandBuffer commands = host_begin(&f->host);
+    for (image.layer = 0; image.layer < LAYERS; image.layer++)
+        for (image.level = 0; image.level < LEVELS; image.level++)
+            fill_green(&image, commands);
+    host_finish(&f->host, commands);
+    lobe_graph_begin(f->graph);
+    lobe_resource parts[LAYERS];
+    for (uint32_t layer = 1; layer < LAYERS; layer++) {
+        lobe_vulkan_image lent = lend(&image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        lent.width = lent.height = SIZE;
+        lent.first_layer = layer;
+        lent.first_level = 1;
+        parts[layer] = lobe_graph_import_image(f->graph, &lent);
+    }
+    draw_half(f, parts[1], LOBE_LOAD_KEEP, 0.5f);
+    lobe_pass *pass = lobe_graph_add_pass(f->graph, LOBE_PASS_TRANSFER, "fill");
+    parts[2] = lobe_pass_fill(pass, parts[2], (lobe_range){0}, (float[]){0, 0, 3, 1});
+    lobe_graph_read_back(f->graph, parts[2], (lobe_range){0});
+    check(f, lobe_graph_execute(f->graph));
+    assert_float_equal(((const float *)lobe_graph_data(f->graph, parts[2], NULL))[2], 3, 0);
+    image.level = 1;
+    image.layer = 1;
+    expect(f, &image, 0.5f, 0.25f);
+    image.layer = 2;
+    expect_all(f, &image, 3);
+    commands = host_begin(&f->host);
+    for (image.layer = 0; image.layer < LAYERS; image.layer++)
+        for (image.level = 0; image.level < (image.layer == 0 ? 2u : 1u); image.level++)
+            host_barrier(commands, &image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                         VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    host_finish(&f->host, commands);
+    image.layer = 0;
+    image.level = 1;
+    expect_all(f, &image, 0.25f);
+    host_image_destroy(&f->host, &image);
+}
+
 static void displays_have_formats_too(void **state) {
     (void)state;
     assert_int_equal(lobe_vulkan_format(VK_FORMAT_B8G8R8A8_SRGB), LOBE_FORMAT_BGRA8_SRGB);
+    assert_int_equal(lobe_vulkan_format(VK_FORMAT_B10G11R11_UFLOAT_PACK32),
+                     LOBE_FORMAT_RG11B10_FLOAT);
     assert_int_equal(lobe_vulkan_format(VK_FORMAT_D32_SFLOAT), LOBE_FORMAT_D32_FLOAT);
     assert_int_equal(lobe_vulkan_format(VK_FORMAT_ASTC_4x4_SRGB_BLOCK), LOBE_FORMAT_NONE);
     assert_int_equal(lobe_vulkan_format(VK_FORMAT_UNDEFINED), LOBE_FORMAT_NONE);
@@ -349,6 +402,13 @@ static void mistakes_are_named(void **state) {
     assert_int_equal(lobe_graph_import_image(f->graph, &lent).version, 0);
     assert_int_equal(lobe_graph_execute(f->graph), LOBE_ERROR_GRAPH);
     assert_non_null(strstr(f->host.recorder.last_error, "twice"));
+    // Twice, in part.
+    lent.layers = 2;
+    lobe_graph_begin(f->graph);
+    lobe_graph_import_image(f->graph, &lent);
+    lent.first_layer = 1;
+    assert_int_equal(lobe_graph_import_image(f->graph, &lent).version, 0);
+    assert_int_equal(lobe_graph_execute(f->graph), LOBE_ERROR_GRAPH);
     // Of an unknown format.
     lent.format = VK_FORMAT_ASTC_4x4_SRGB_BLOCK;
     lobe_graph_begin(f->graph);
@@ -606,6 +666,7 @@ int main(void) {
         TEST(a_frame_reads_the_hosts_image),
         TEST(an_image_is_read_again_where_its_content_changed),
         TEST(an_unused_image_changes_its_layout),
+        TEST(a_frame_draws_into_a_part_of_the_hosts_image),
         cmocka_unit_test(displays_have_formats_too),
         TEST(mistakes_are_named),
         TEST(frames_read_and_write_the_hosts_buffer),

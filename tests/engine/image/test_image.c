@@ -20,6 +20,10 @@ static void formats_have_size_channels_and_name(void **state) {
             assert_int_equal(lobe_format_size((lobe_format)format), 0);
             continue;
         }
+        if (strstr(name, "10")) { // packed, of channels that differ in bits
+            assert_int_equal(lobe_format_size((lobe_format)format), 4);
+            continue;
+        }
         assert_int_equal(lobe_format_channels((lobe_format)format), channels);
         assert_int_equal(lobe_format_size((lobe_format)format), channels * bits / 8);
     }

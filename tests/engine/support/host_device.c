@@ -159,14 +159,20 @@ static VkDeviceMemory allocate(const host_device *host, const VkMemoryRequiremen
 
 host_image host_image_create(const host_device *host, VkFormat format, uint32_t width,
                              uint32_t height, VkImageUsageFlags usage) {
+    return host_image_create_array(host, format, width, height, 1, 1, usage);
+}
+
+host_image host_image_create_array(const host_device *host, VkFormat format, uint32_t width,
+                                   uint32_t height, uint32_t layers, uint32_t levels,
+                                   VkImageUsageFlags usage) {
     host_image image = {.format = format, .width = width, .height = height};
     const VkImageCreateInfo create = {
         .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
         .imageType = VK_IMAGE_TYPE_2D,
         .format = format,
         .extent = {width, height, 1},
-        .mipLevels = 1,
-        .arrayLayers = 1,
+        .mipLevels = levels,
+        .arrayLayers = layers,
         .samples = VK_SAMPLE_COUNT_1_BIT,
         .usage = usage,
     };
@@ -249,6 +255,10 @@ static VkImageAspectFlags aspect_of(const host_image *image) {
                                                  : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
+static VkImageSubresourceRange part_of(const host_image *image) {
+    return (VkImageSubresourceRange){aspect_of(image), image->level, 1, image->layer, 1};
+}
+
 void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayout from,
                   VkImageLayout to) {
     const VkImageMemoryBarrier2 barrier = {
@@ -262,7 +272,7 @@ void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayo
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = image->image,
-        .subresourceRange = {aspect_of(image), 0, 1, 0, 1},
+        .subresourceRange = part_of(image),
     };
     const VkDependencyInfo dependency = {
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
@@ -275,7 +285,7 @@ void host_barrier(VkCommandBuffer commands, const host_image *image, VkImageLayo
 void host_clear(VkCommandBuffer commands, const host_image *image, const float colour[4]) {
     VkClearColorValue value;
     memcpy(value.float32, colour, sizeof value.float32);
-    const VkImageSubresourceRange range = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    const VkImageSubresourceRange range = part_of(image);
     vkCmdClearColorImage(commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1,
                          &range);
 }
@@ -293,8 +303,9 @@ void host_read(const host_device *host, const host_image *image, void *texels, s
     host_buffer buffer =
         create_buffer(host, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    const VkBufferImageCopy copy = {.imageSubresource = {aspect_of(image), 0, 0, 1},
-                                    .imageExtent = {image->width, image->height, 1}};
+    const VkBufferImageCopy copy = {
+        .imageSubresource = {aspect_of(image), image->level, image->layer, 1},
+        .imageExtent = {image->width >> image->level, image->height >> image->level, 1}};
     const VkMemoryBarrier2 barrier = {
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,

@@ -36,10 +36,15 @@ typedef struct host_image {
     VkDeviceMemory memory;
     VkFormat format;
     uint32_t width, height;
+    uint32_t layer, level; ///< the part that the functions below use
 } host_image;
 
 host_image host_image_create(const host_device *host, VkFormat format, uint32_t width,
                              uint32_t height, VkImageUsageFlags usage);
+/// The same with several layers and levels; its part is the first of both.
+host_image host_image_create_array(const host_device *host, VkFormat format, uint32_t width,
+                                   uint32_t height, uint32_t layers, uint32_t levels,
+                                   VkImageUsageFlags usage);
 void host_image_destroy(const host_device *host, host_image *image);
 
 /// A buffer with its own memory.

@@ -3,6 +3,7 @@
 
 #include "tests/passes/support/fixture.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -351,6 +352,62 @@ static void formats_of_displays_are_encoded(void **state) {
     host_image_destroy(&f->host, &image);
 }
 
+/// `bits` from the lowest on `shift`: a number without sign of five bits of exponent.
+static float small_float(uint32_t texel, int shift, int bits) {
+    const uint32_t value = texel >> shift & ((1u << bits) - 1);
+    const int mantissa_bits = bits - 5;
+    const uint32_t exponent = value >> mantissa_bits,
+                   mantissa = value & ((1u << mantissa_bits) - 1);
+    const float fraction = (float)mantissa / (float)(1 << mantissa_bits);
+    return exponent > 0 ? ldexpf(1 + fraction, (int)exponent - 15) : ldexpf(fraction, -14);
+}
+
+static float packed_channel(VkFormat format, uint32_t texel, int channel) {
+    if (format == VK_FORMAT_B10G11R11_UFLOAT_PACK32)
+        return small_float(texel, 11 * channel, channel < 2 ? 11 : 10);
+    const int place = format == VK_FORMAT_A2R10G10B10_UNORM_PACK32 ? 2 - channel : channel;
+    return (float)(texel >> 10 * place & 1023) / 1023;
+}
+
+/// High dynamic range in 32 bits, and displays of more than 256 steps; also over what was there.
+static void formats_with_packed_channels_are_drawn_into(void **state) {
+    static const VkFormat formats[] = {VK_FORMAT_B10G11R11_UFLOAT_PACK32,
+                                       VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+                                       VK_FORMAT_A2R10G10B10_UNORM_PACK32};
+    static const char *const several[] = {"samples=8", NULL};
+    host_fixture *f = *state;
+    const lobe_settings settings = settings_of(filter_named("moments"), several);
+    const float *behind = f->scene->background;
+    const float background[4] = {behind[0], behind[1], behind[2], 1};
+    lobe_render_parameters parameters = {.settings = &settings, .width = SIZE, .height = SIZE};
+    lobe_frame expected = render(f, &parameters);
+    for (int n = 0; n < 6; n++) {
+        const bool over = n % 2;
+        host_image image = host_image_create(&f->host, formats[n / 2], SIZE, SIZE, colour_usage);
+        VkCommandBuffer commands = host_begin(&f->host);
+        host_barrier(commands, &image, VK_IMAGE_LAYOUT_UNDEFINED,
+                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        host_clear(commands, &image, background);
+        host_finish(&f->host, commands);
+        lobe_vulkan_image colour = lend(&image, colour_usage, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        const lobe_render_target target = {.radiance = &colour, .keep = over};
+        parameters.host.target = &target;
+        lobe_frame frame = render(f, &parameters);
+        uint32_t texels[SIZE * SIZE];
+        host_read(&f->host, &image, texels, sizeof texels);
+        for (uint32_t i = 0; i < SIZE * SIZE; i++)
+            for (int channel = 0; channel < 3; channel++) {
+                const float value = pixel_at(&expected.radiance, i % SIZE, i / SIZE)[channel];
+                const float most = n < 2 ? value : fminf(value, 1);
+                assert_float_equal(packed_channel(image.format, texels[i], channel), most,
+                                   n < 2 ? 0.035f * value + 1e-4f : 2.0f / 1023);
+            }
+        lobe_frame_free(&frame);
+        host_image_destroy(&f->host, &image);
+    }
+    lobe_frame_free(&expected);
+}
+
 // ---------------------------------------------------------------------------------------------
 // Submission
 
@@ -604,6 +661,7 @@ int main(void) {
         cmocka_unit_test(tiles_are_marked_over_the_hosts_depth),
         cmocka_unit_test(the_environment_stays_behind_the_hosts_background),
         cmocka_unit_test(formats_of_displays_are_encoded),
+        cmocka_unit_test(formats_with_packed_channels_are_drawn_into),
         cmocka_unit_test(frames_in_flight_are_those_delivered),
         cmocka_unit_test_setup_teardown(pictures_are_recorded_into_the_hosts_commands, open_host,
                                         close_host),
