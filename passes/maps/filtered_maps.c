@@ -233,6 +233,19 @@ static bool is_like_lobes(const device_material *material, uint32_t map) {
            passes_lobe_grid_shares_coordinates(material, map);
 }
 
+/// Bits of the clamped maps that surfaces leave; those of v after those of u.
+static uint32_t clamped_maps(const device_material *material) {
+    uint32_t bits = 0;
+    for (uint32_t map = 0; map < MAP_COUNT; map++) {
+        const lobe_texture_use *use = material->maps[map].use;
+        if (!use || (material->inside >> map & 1))
+            continue;
+        bits |= (uint32_t)(use->wrap_u == LOBE_SCENE_WRAP_CLAMP) << map;
+        bits |= (uint32_t)(use->wrap_v == LOBE_SCENE_WRAP_CLAMP) << (MAP_COUNT + map);
+    }
+    return bits;
+}
+
 /// Bits of the maps whose level 0 some pixel may see. The normal map counts with the size of the
 /// lobes' grid.
 /// A constant, so that the others' level 0 is not fetched. Hence the bias or the camera compiles a
@@ -243,7 +256,8 @@ static uint32_t magnified_maps(const filter_context *context, uint32_t index) {
     double probes = passes_knob_value(context, &passes_knob_probes),
            bias = passes_knob_value(context, &passes_knob_bias) +
                   log2(passes_sample_count(context).footprint);
-    uint32_t bits = 0;
+    const uint32_t clamped = clamped_maps(material);
+    uint32_t bits = (clamped | clamped >> MAP_COUNT) & ((1u << MAP_COUNT) - 1);
     for (uint32_t map = 0; map < MAP_COUNT; map++) {
         if (!material->maps[map].use)
             continue;
@@ -278,6 +292,7 @@ void passes_filtered_maps_build(const filter_context *context, uint32_t index,
     passes_appearance_specialise(appearance, SPECIALISE_LIKE_LOBES, like_lobes);
     passes_appearance_specialise(appearance, SPECIALISE_MAGNIFIED_MAPS,
                                  magnified_maps(context, index));
+    passes_appearance_specialise(appearance, SPECIALISE_CLAMPED_MAPS, clamped_maps(material));
     passes_appearance_specialise(appearance, SPECIALISE_FILTERED_MAPS, filtered);
     bind_mask_layers(context, index, (filtered & 1u << MAP_BASE_COLOUR) != 0, appearance);
     bind_metal_means(context, index, appearance);

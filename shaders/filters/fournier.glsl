@@ -77,8 +77,8 @@ appearance fetch_appearance(surface_point surface) {
     draw_widths(surface);
     bool near = may_see_level_0(lobe_map());
     result.level = FILTERED_LOBES ? result.area.level : 0.0;
-    level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);
-    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, result.level, 1.0) : 1.0;
+    level_0_normals normals = normals_of_level_0(surface, result.area, 1.0);
+    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, result.area.share, 1.0) : 1.0;
     result.lobe_count = float(LOBE_COUNT);
     result.normal = unfiltered_normal(surface);
     result.filtered = filtered_material(surface, result.normal, result.area);

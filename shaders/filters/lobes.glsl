@@ -385,8 +385,8 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.mixture_from_tangent = mixture_frame(surface);
     float coverage, weight;
     vec4 mean = fetch_mean(fetched.area, coverage, weight);
-    level_0_normals normals = normals_of_level_0(surface, fetched.level, 1.0);
-    fetched.base_share = share_of_level_0(normals, fetched.level, coverage);
+    level_0_normals normals = normals_of_level_0(surface, fetched.area, 1.0);
+    fetched.base_share = share_of_level_0(normals, fetched.area.share, coverage);
     if (WIDTHS_APART) {
         mean.w = fetch_width_means(surface).complement;
         fetched.resultant_scale = (1.0 - mean.w) / max(1.0 - uniform_complement(), 1e-3);

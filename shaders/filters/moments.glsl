@@ -240,8 +240,8 @@ appearance fetch_appearance(surface_point surface) {
     draw_widths(surface);
     if (FILTERED_LOBES) {
         result.level = result.area.level;
-        level_0_normals normals = normals_of_level_0(surface, result.level, 1.0);
-        result.base_share = share_of_level_0(normals, result.level, 1.0 / result.mass_scale);
+        level_0_normals normals = normals_of_level_0(surface, result.area, 1.0);
+        result.base_share = share_of_level_0(normals, result.area.share, 1.0 / result.mass_scale);
         if (may_see_level_0(lobe_map()))
             result.base = level_0_material(surface, normals);
     }

@@ -57,8 +57,8 @@ appearance fetch_appearance(surface_point surface) {
     map_area area = lobe_area(surface);
     draw_widths(surface);
     bool near = may_see_level_0(lobe_map());
-    level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
-    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, area.level, 1.0) : 1.0;
+    level_0_normals normals = normals_of_level_0(surface, area, 1.0);
+    result.base_share = FILTERED_LOBES ? share_of_level_0(normals, area.share, 1.0) : 1.0;
     result.level = FILTERED_LOBES ? area.level : 0.0;
     result.lobe_count = result.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     result.normal = unfiltered_normal(surface);

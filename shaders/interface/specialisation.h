@@ -52,6 +52,8 @@
 #define SPECIALISE_FILTERED_LOBES SPECIALISE(34) // bool: lobes vary, and there is a map of them
 #define SPECIALISE_FILTERED_MAPS  SPECIALISE(35) // uint, bit MAP_...: there is a filtered map
 #define SPECIALISE_MAGNIFIED_MAPS SPECIALISE(36) // uint, bit MAP_...: pixels may use its level 0
+// uint, bit MAP_... and, of v, MAP_COUNT + MAP_...: it is clamped, and surfaces leave it
+#define SPECIALISE_CLAMPED_MAPS   SPECIALISE(76)
 #define SPECIALISE_LIKE_LOBES     SPECIALISE(37) // uint, bit MAP_...: laid out like the lobes' map
 #define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
 #define SPECIALISE_WIDTHS_APART   SPECIALISE(75) // bool: widths have a map of their own

@@ -56,9 +56,9 @@ vec4 fetch_averages(map_area area, surface_point surface) {
     if (WIDTHS_APART)
         sum.w = fetch_width_means(surface).concentration;
     if (may_see_level_0(lobe_map())) {
-        level_0_normals normals = normals_of_level_0(surface, area.level, 1.0);
+        level_0_normals normals = normals_of_level_0(surface, area, 1.0);
         float width = averaged_width(unfiltered_material(surface, normals.mean));
-        sum = mix(sum, vec4(normals.mean, width), share_of_level_0(normals, area.level, kept));
+        sum = mix(sum, vec4(normals.mean, width), share_of_level_0(normals, area.share, kept));
     }
     sum.xyz = facing_normal(sum.xyz, surface);
     return sum;

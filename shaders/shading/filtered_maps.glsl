@@ -113,7 +113,7 @@ vec4 filtered_texel(int map, sampler2D base, sampler2D filtered, surface_point s
                                                    : fetch_probe(filtered, area, i);
         if (may_see_level_0(map))
             value = mix(filterable(map, base_texel(base, probe_position(area, i)), surface), value,
-                        min(area.level, 1.0));
+                        area.share);
         sum += value;
     }
     return sum / float(probes_of(area));

@@ -19,11 +19,11 @@ struct level_0_normals {
 
 // The part that level 0 has of a footprint's appearance; the maps have the rest. Under a mask each
 // counts by what it keeps: a pixel that shows a part of the surface may have a hole at its centre.
-// `kept`: how much the maps' texels count.
-float share_of_level_0(level_0_normals normals, float level, float kept) {
+// `filtered`: the maps' part of the area. `kept`: how much the maps' texels count.
+float share_of_level_0(level_0_normals normals, float filtered, float kept) {
     if (!may_see_level_0(lobe_map()))
         return 0.0;
-    float share = clamp(1.0 - level, 0.0, 1.0);
+    float share = 1.0 - filtered;
     return MASKED_LOBES && share > 0.0
                ? share * normals.kept / max(mix(kept, normals.kept, share), 1e-6)
                : share;
@@ -44,8 +44,10 @@ vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
 // Three points that have the mean and the covariance of all of the pixel's points if normals change
 // linearly: over a box of width one, whose variance is 1/12, the corners of an equilateral triangle
 // at the distance 1/sqrt(6) from its centre. Where level 0 has no share, the surface's own normal.
-level_0_normals normals_of_level_0(surface_point surface, float level, float relief) {
-    if (!may_see_level_0(lobe_map()) || level >= 1.0)
+// Beyond the edges of a clamped map, pixels of any size show level 0. Of so many normals, three far
+// apart are not the mean and the covariance: the box is two texels wide there.
+level_0_normals normals_of_level_0(surface_point surface, map_area area, float relief) {
+    if (!may_see_level_0(lobe_map()) || area.share >= 1.0)
         return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0, 1.0);
     vec2 centre = map_coordinates(lobe_map(), surface.coordinates, 1.0);
     if (!has_map(MAP_NORMAL))
@@ -53,8 +55,9 @@ level_0_normals normals_of_level_0(surface_point surface, float level, float rel
     if (!INTERPOLATED)
         return level_0_normals(level_0_normal(surface, centre, relief), 0.0,
                                kept_at(surface, centre));
-    vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * inversesqrt(8.0);
-    vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * inversesqrt(6.0);
+    float part = CLAMPED_MAPS != 0u ? exp2(-max(area.level - 1.0, 0.0)) : 1.0;
+    vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * part * inversesqrt(8.0);
+    vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * part * inversesqrt(6.0);
     vec2 points[3] = vec2[](centre + dy, centre + dx - 0.5 * dy, centre - dx - 0.5 * dy);
     vec3 a = level_0_normal(surface, points[0], relief);
     vec3 b = level_0_normal(surface, points[1], relief);

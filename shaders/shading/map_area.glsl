@@ -10,6 +10,7 @@ layout(constant_id = SPECIALISE_PROBES) const uint PROBES = 1; // at most
 // The widths of lobes are not in their maps, see shading/colours/width_means.glsl.
 layout(constant_id = SPECIALISE_WIDTHS_APART) const bool WIDTHS_APART = false;
 layout(constant_id = SPECIALISE_MAGNIFIED_MAPS) const uint MAGNIFIED_MAPS = ~0u;
+layout(constant_id = SPECIALISE_CLAMPED_MAPS) const uint CLAMPED_MAPS = 0;
 
 // How much longer than the extent of its probes a footprint may be, in widths.
 const float SLACK = 0.25;
@@ -21,6 +22,7 @@ struct map_area {
     vec2 along;  // axes of a probe's ellipse, for an anisotropic sampler
     vec2 across;
     float level; // of the base map, at least 0; that of a round probe
+    float share; // [0, 1]: of filtered levels; the rest is level 0's
     uint probes;
 };
 
@@ -54,15 +56,30 @@ map_area area_over(vec2 centre, vec2 dx, vec2 dy, vec2 size, bool magnified) {
     area.along = max(factor, 1.0) * area.stride;
     area.across = factor * vec2(-pixel.direction.y, pixel.direction.x) * pixel.minor_axis / size;
     area.level = max(level_of(pixel, probes) + knobs.level_bias, magnified ? 0.0 : 1.0);
+    area.share = min(area.level, 1.0);
     return area;
+}
+
+// The part of a pixel that lies on a clamped map, not beyond its edges. There, surfaces show the
+// texels along the edge alone, whose means coarser levels do not have: they are level 0's.
+float part_on_map(int map, vec2 centre, vec2 dx, vec2 dy) {
+    uint clamped = CLAMPED_MAPS >> map;
+    vec2 side = max(abs(dx) + abs(dy), 1e-6);
+    vec2 part = (min(centre + 0.5 * side, 1.0) - max(centre - 0.5 * side, 0.0)) / side;
+    part = clamp(part, 0.0, 1.0);
+    return ((clamped & 1u) != 0u ? part.x : 1.0) *
+           ((clamped >> MAP_COUNT & 1u) != 0u ? part.y : 1.0);
 }
 
 // `size`: texels of the base map.
 map_area area_of(int map, vec2 size, surface_point surface) {
-    return area_over(map_coordinates(map, surface.coordinates, 1.0),
-                     map_coordinates(map, surface.coordinates_dx, 0.0),
-                     map_coordinates(map, surface.coordinates_dy, 0.0), size,
-                     may_see_level_0(map));
+    vec2 centre = map_coordinates(map, surface.coordinates, 1.0);
+    vec2 dx = map_coordinates(map, surface.coordinates_dx, 0.0);
+    vec2 dy = map_coordinates(map, surface.coordinates_dy, 0.0);
+    map_area area = area_over(centre, dx, dy, size, may_see_level_0(map));
+    if (CLAMPED_MAPS != 0u)
+        area.share *= part_on_map(map, centre, dx, dy);
+    return area;
 }
 
 // The larger of the maps that lobes come from, in texels.

@@ -28,17 +28,19 @@ float filtered_coverage(surface_point surface, vec2 position, float level) {
 // The mask's coverage, at one place within the footprint; `along`: where, in [0, 1].
 float mask_coverage(surface_point surface, float along) {
     vec2 size = vec2(textureSize(base_colour_map, 0));
-    footprint pixel =
-        footprint_of(map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dx, 0.0) * size,
-                     map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dy, 0.0) * size);
+    vec2 dx = map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dx, 0.0);
+    vec2 dy = map_coordinates(MAP_BASE_COLOUR, surface.coordinates_dy, 0.0);
+    footprint pixel = footprint_of(dx * size, dy * size);
     float width = max(pixel.minor_axis, pixel.major_axis / LONGEST_MASK);
     vec2 offset = pixel.direction * ((pixel.major_axis - width) * (along - 0.5));
     vec2 position = map_coordinates(MAP_BASE_COLOUR, surface.coordinates, 1.0) + offset / size;
     float level = log2(max(width, 1e-6)) + knobs.level_bias;
     vec4 finest = base_texel(base_colour_map, position);
     float coverage = filterable(MAP_BASE_COLOUR, finest, surface).a;
-    return mix(coverage, filtered_coverage(surface, position, max(level - 1.0, 0.0)),
-               clamp(level, 0.0, 1.0));
+    float share = clamp(level, 0.0, 1.0);
+    if (CLAMPED_MAPS != 0u)
+        share *= part_on_map(MAP_BASE_COLOUR, position, dx, dy);
+    return mix(coverage, filtered_coverage(surface, position, max(level - 1.0, 0.0)), share);
 }
 
 bool keeps_footprint(surface_point surface) {

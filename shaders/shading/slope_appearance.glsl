@@ -36,9 +36,9 @@ void mask_by_triangles(inout footprint_lobe lobe, inout slope_moments moments, m
 void gather_footprint(inout appearance fetched, surface_point surface, vec3 incoming[4]);
 vec3 evaluate_footprint(appearance fetched, vec3 outgoing, vec3 incoming, uint light);
 
-void fetch_base(inout appearance fetched, surface_point surface) {
-    level_0_normals normals = normals_of_level_0(surface, fetched.level, height_scale());
-    fetched.base_share = share_of_level_0(normals, fetched.level, fetched.moments.kept);
+void fetch_base(inout appearance fetched, map_area area, surface_point surface) {
+    level_0_normals normals = normals_of_level_0(surface, area, height_scale());
+    fetched.base_share = share_of_level_0(normals, area.share, fetched.moments.kept);
     fetched.base = level_0_material(surface, normals);
     // Under its own F0, not that of the footprint, where these differ.
     if (METAL_MEANS == METAL_MEANS_NONE)
@@ -64,7 +64,7 @@ appearance fetch_appearance(surface_point surface) {
     }
     result.filtered = filtered_material(surface, result.normal, area);
     if (FILTERED_LOBES && may_see_level_0(lobe_map()))
-        fetch_base(result, surface);
+        fetch_base(result, area, surface);
     if (FILTERED_LOBES && MODEL == MODEL_MICROFACET)
         result.filtered.width =
             base_lobe_of_concentration(DISTRIBUTION, 1.0 / result.moments.base_variance);

@@ -63,7 +63,7 @@ void fetch_colour_normals(surface_point surface) {
     if (MODEL == MODEL_MICROFACET && !METALLIC_MAP)
         factor *= 1.0 - material.metallic;
     // A texel of level 0 has one colour and one normal.
-    float share = may_see_level_0(lobe_map()) ? clamp(area.level, 0.0, 1.0) : 1.0;
+    float share = may_see_level_0(lobe_map()) ? area.share : 1.0;
     vec4 mean = filtered_layer(colour_normal_map, area, COLOUR_NORMALS_MEAN);
     float scale = per_kept(mean.w);
     drawn_colours.mean = scale * mean.xyz;

@@ -59,8 +59,8 @@ metal_means fetch_metal_means(surface_point surface, map_area lobes) {
         if (may_see_level_0(metal_map_layout())) {
             vec4 finest, finest_colour;
             layers_of_level_0(surface, probe_position(area, i), finest, finest_colour);
-            own = mix(finest, own, min(area.level, 1.0));
-            own_colour = mix(finest_colour, own_colour, min(area.level, 1.0));
+            own = mix(finest, own, area.share);
+            own_colour = mix(finest_colour, own_colour, area.share);
         }
         metal += own;
         colour += own_colour;

@@ -44,13 +44,13 @@ width_means fetch_width_means(surface_point surface) {
         sum.lobes += fetch_probe(width_means_map, WIDTH_LAYER_LOBES, area, i);
         sum.microfacets += fetch_probe(width_means_map, WIDTH_LAYER_MICROFACETS, area, i);
     }
-    if (may_see_level_0(MAP_WIDTH) && area.level < 1.0) {
+    if (may_see_level_0(MAP_WIDTH) && area.share < 1.0) {
         float mirrored = sum.microfacets.w;
         width_layers finest =
             layers_of_width(DISTRIBUTION, BASE_AS_LOBE,
                             parameter_of_factor(base_texel(width_map, area.centre).g));
-        sum.lobes = mix(mirrored * finest.lobes, sum.lobes, area.level);
-        sum.microfacets = mix(mirrored * finest.microfacets, sum.microfacets, area.level);
+        sum.lobes = mix(mirrored * finest.lobes, sum.lobes, area.share);
+        sum.microfacets = mix(mirrored * finest.microfacets, sum.microfacets, area.share);
     }
     return means_of_layers(sum);
 }
