@@ -60,14 +60,35 @@ struct lobe_grid_constants passes_lobe_grid_constants(const filter_context *cont
     return constants;
 }
 
+static uint32_t colour_square_of(const device_map *colours) {
+    uint32_t square = COLOUR_SQUARE_CLAMPS;
+    square |= colours->use->wrap_u == LOBE_SCENE_WRAP_REPEAT ? COLOUR_SQUARE_REPEATS_U : 0;
+    return square | (colours->use->wrap_v == LOBE_SCENE_WRAP_REPEAT ? COLOUR_SQUARE_REPEATS_V : 0);
+}
+
+void passes_colour_square_specialise(const device_material *material,
+                                     const struct lobe_grid_constants *grid, bool interpolated,
+                                     specialisation_list *list) {
+    const device_map *colours = &material->maps[MAP_BASE_COLOUR];
+    const bool square = interpolated && !passes_mask_cuts_texels(material) &&
+                        passes_device_map_is_interpolated(material, MAP_BASE_COLOUR) &&
+                        colours->width == grid->width && colours->height == grid->height &&
+                        grid->width % 2 == 0 && grid->height % 2 == 0;
+    passes_specialise(list, SPECIALISE_COLOUR_SQUARE,
+                      square ? colour_square_of(colours) : COLOUR_SQUARE_NONE);
+}
+
+bool passes_base_maps_are_interpolated(const device_material *material) {
+    return passes_device_map_is_interpolated(material, MAP_NORMAL) ||
+           passes_device_map_is_interpolated(material, MAP_WIDTH);
+}
+
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
     // Without those that no map of lobes reads.
     const uint32_t apart = passes_widths_lie_apart(material) ? 1u << MAP_WIDTH : 0;
     const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION | apart;
     passes_lobes_specialise(material, material->map_bits & ~unread, list);
-    passes_specialise(list, SPECIALISE_INTERPOLATED,
-                      passes_device_map_is_interpolated(material, MAP_NORMAL) ||
-                          passes_device_map_is_interpolated(material, MAP_WIDTH));
+    passes_specialise(list, SPECIALISE_INTERPOLATED, passes_base_maps_are_interpolated(material));
     passes_specialise(list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
     passes_specialise(list, SPECIALISE_MASK_POINTS, passes_mask_cuts_texels(material));
 }
@@ -104,6 +125,9 @@ reduced_map passes_lobe_map(const filter_context *context, uint32_t index,
     if (kind->read_more)
         kind->read_more(context, material, pass, &list);
     const struct lobe_grid_constants extent = passes_lobe_grid_constants(context, material);
+    if (kind->reads_base_colour)
+        passes_colour_square_specialise(material, &extent,
+                                        passes_base_maps_are_interpolated(material), &list);
     const char *const shaders[] = {kind->shader, kind->seen_shader};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;

@@ -26,6 +26,16 @@ void passes_base_colour_read(const filter_context *context, const device_materia
 void passes_colour_maps_read(const filter_context *context, const device_material *material,
                              bool reads, lobe_pass *pass);
 
+/// Whether normals or widths are interpolated between texels.
+bool passes_base_maps_are_interpolated(const device_material *material);
+
+/// For a shader that reads base colours at the points of texels of a grid: in squares, where the
+/// map has the grid's texels (shaders/maps/colour_square.glsl). `interpolated`: what the shader has
+/// for SPECIALISE_INTERPOLATED.
+void passes_colour_square_specialise(const device_material *material,
+                                     const struct lobe_grid_constants *grid, bool interpolated,
+                                     specialisation_list *list);
+
 /// Push constants of a pass over the material's grid of lobes, with its mask if these are masked.
 struct lobe_grid_constants passes_lobe_grid_constants(const filter_context *context,
                                                       const device_material *material);

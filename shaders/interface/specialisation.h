@@ -58,6 +58,7 @@
 #define SPECIALISE_TEXEL_SAMPLES  SPECIALISE(38) // uint, along each axis of a texel; 0: all texels
 #define SPECIALISE_WIDTHS_APART   SPECIALISE(75) // bool: widths have a map of their own
 #define SPECIALISE_METAL_MEANS    SPECIALISE(53) // uint, METAL_MEANS_...
+#define SPECIALISE_COLOUR_SQUARE  SPECIALISE(76) // uint, COLOUR_SQUARE_...
 #define SPECIALISE_COLOUR_NORMALS SPECIALISE(54) // bool: diffuse colours may go with normals
 #define SPECIALISE_MASKED_LOBES   SPECIALISE(55) // bool: maps of lobes leave out what a mask cuts
 #define SPECIALISE_MASK_POINTS    SPECIALISE(56) // bool: what a mask keeps may end inside texels
@@ -85,6 +86,13 @@
 #define METAL_MEANS_ALONE    1 // metal: colours are alike everywhere, or lie apart
 #define METAL_MEANS_COLOURED 2 // both
 #define METAL_MEANS_FINER    3 // both, and colours have more texels than lobes
+
+// Whether passes that build maps read the base colour map in squares of 4 x 4 texels
+// (maps/colour_square.glsl), and bits for the axes along which it repeats then.
+#define COLOUR_SQUARE_NONE      0
+#define COLOUR_SQUARE_CLAMPS    1
+#define COLOUR_SQUARE_REPEATS_U 2
+#define COLOUR_SQUARE_REPEATS_V 4
 
 #define VIEW_RADIANCE 0
 #define VIEW_LOBES    1

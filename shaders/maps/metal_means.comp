@@ -12,9 +12,6 @@
 #include "interface/lobe_grid.h"
 #include "interface/material.h"
 #include "interface/specialisation.h"
-#include "lib/map/base_texel.glsl"
-#include "lib/map/box_reduction.glsl"
-#include "maps/map_points.glsl"
 #include "maps/mask_weight.glsl"
 #include "maps/target_texel.glsl"
 
@@ -26,6 +23,8 @@ layout(set = 0, binding = 4) uniform sampler2D base_colour_map;
 layout(set = 0, binding = 6) uniform sampler2D width_map;
 layout(set = 0, binding = 16) uniform writeonly image2DArray metal_map;
 
+#include "maps/colour_square.glsl"
+
 layout(push_constant) uniform constants_block { lobe_grid_constants constants; };
 
 // The layers of the map.
@@ -34,10 +33,10 @@ struct point_sums {
     vec4 colour;
 };
 
-void add_point(inout point_sums sums, vec2 point, float weight) {
-    float metallic = base_texel(width_map, point).b;
+void add_point(inout point_sums sums, target_point point) {
+    float metallic = base_texel(width_map, point.place).b, weight = point.weight;
     vec4 colour = METAL_MEANS == METAL_MEANS_COLOURED || MASKED_LOBES
-                      ? base_texel(base_colour_map, point)
+                      ? base_colour_at(point)
                       : vec4(1.0);
     if (MASKED_LOBES)
         weight *= weight_of_alpha(colour.a, constants.alpha, constants.cutoff);
@@ -50,26 +49,17 @@ void add_point(inout point_sums sums, vec2 point, float weight) {
     }
 }
 
-// Colours that are interpolated are averaged as products of colour and metal are, see
-// lib/map/texel_point.glsl.
-void add_texel(inout point_sums sums, ivec2 texel, ivec2 size, float weight) {
-    for (int i = 0; i < POINTS; ++i)
-        add_point(sums, map_point(texel, i, size), weight / float(POINTS));
-}
-
 void main() {
     ivec2 position;
     if (!find_target_texel(constants.level, imageSize(metal_map).xy, position))
         return;
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
+    read_colours(points);
     point_sums sums = point_sums(vec4(0.0), vec4(0.0));
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x)
-            add_texel(sums, 2 * position + ivec2(x, y), size,
-                      row_weights[y] * column_weights[x]);
-    }
+    // Colours that are interpolated are averaged as products of colour and metal are, see
+    // lib/map/texel_point.glsl.
+    for (int i = 0; i < count_of(points); ++i)
+        add_point(sums, point_of(points, i));
     imageStore(metal_map, ivec3(position, METAL_LAYER_METAL), sums.metal);
     if (METAL_MEANS == METAL_MEANS_COLOURED)
         imageStore(metal_map, ivec3(position, METAL_LAYER_COLOUR), sums.colour);

@@ -11,16 +11,13 @@
 layout(constant_id = SPECIALISE_METALLIC_MAP) const bool METALLIC_MAP = false;
 
 // The luminance of F0 (glTF 2.0, appendix B.2). The pass reads the material's colours, too
-// (passes_base_maps_read). `coloured`: with the base colour map; without it, metal has the
-// material's colour.
-float mirrored_luminance(vec2 point, bool coloured) {
+// (passes_base_maps_read). `base_colour`: of the map at the point; white without one.
+float mirrored_luminance(vec2 point, vec3 base_colour) {
     float metallic = material.metallic;
     if (METALLIC_MAP)
         metallic *= base_texel(width_map, point).b;
-    vec3 colour = material.base_colour.rgb;
-    if (coloured)
-        colour *= base_texel(base_colour_map, point).rgb;
-    return mix(mix(DIELECTRIC_F0, lobe_luminance(colour), metallic), 1.0, LEAST_MIRRORED);
+    float metal = lobe_luminance(material.base_colour.rgb * base_colour);
+    return mix(mix(DIELECTRIC_F0, metal, metallic), 1.0, LEAST_MIRRORED);
 }
 
 #endif

@@ -7,7 +7,7 @@
 // Xu et al. 2017, section 5.2: naive MIP-mapping averages mu and kappa of the instant BRDF map.
 
 #include "maps/base_maps.glsl"
-#include "lib/map/box_reduction.glsl"
+#include "maps/target_points.glsl"
 #include "maps/target_texel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -20,23 +20,17 @@ void main() {
     ivec2 position;
     if (!find_target_texel(constants.level, imageSize(parameter_map).xy, position))
         return;
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
     vec4 mean = vec4(0.0);
     float share = 0.0;
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            for (int i = 0; i < POINTS; ++i) {
-                vec2 point = map_point(2 * position + ivec2(x, y), i, size);
-                float weight = row_weights[y] * column_weights[x] / float(POINTS) *
-                               weight_of_point(point, constants.alpha, constants.cutoff);
-                float factor = width_at(point);
-                float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
-                mean += weight * vec4(normal_at(point, constants.alpha, constants.cutoff), width);
-                share += weight;
-            }
-        }
+    for (int i = 0; i < count_of(points); ++i) {
+        target_point point = point_of(points, i);
+        float weight =
+            point.weight * weight_of_point(point.place, constants.alpha, constants.cutoff);
+        float factor = width_at(point.place);
+        float width = MODEL == MODEL_MICROFACET ? base_concentration(0, factor) : factor;
+        mean += weight * vec4(normal_at(point.place, constants.alpha, constants.cutoff), width);
+        share += weight;
     }
     imageStore(parameter_map, ivec3(position, 0), mean);
     if (MASKED_LOBES)

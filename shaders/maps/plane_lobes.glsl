@@ -28,9 +28,9 @@ vec4 value_at(int map, sampler2D image, vec2 point) {
 
 // Specular: of microfacets the part of F0 that is metal's, and the fraction that is not metal; or
 // the factor of the lobes' colours. Diffuse: what is below, times what they let through at normal
-// incidence.
-void colours_at(vec2 point, out vec4 specular, out vec3 diffuse) {
-    diffuse = material.base_colour.rgb * value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb;
+// incidence. `base_colour`: of the map at the point; white without one.
+void colours_at(vec2 point, vec3 base_colour, out vec4 specular, out vec3 diffuse) {
+    diffuse = material.base_colour.rgb * base_colour;
     if (MODEL == MODEL_MICROFACET) {
         float metallic = material.metallic;
         if (METALLIC_MAP)

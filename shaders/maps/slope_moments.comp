@@ -9,7 +9,7 @@
 
 #include "maps/base_maps.glsl"
 #include "interface/slope_moments.h"
-#include "lib/map/box_reduction.glsl"
+#include "maps/target_points.glsl"
 #include "maps/target_texel.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/microfacet/slope_distribution.glsl"
@@ -51,20 +51,14 @@ void main() {
     ivec2 position;
     if (!find_target_texel(constants.level, imageSize(moment_map).xy, position))
         return;
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
     moment_sums sums = moment_sums(vec4(0.0), vec4(0.0));
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            for (int i = 0; i < POINTS; ++i) {
-                vec2 point = map_point(2 * position + ivec2(x, y), i, size);
-                float weight = row_weights[y] * column_weights[x] / float(POINTS) *
-                               weight_of_point(point, constants.alpha, constants.cutoff);
-                vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
-                add_point(sums, normal, width_at(point), weight);
-            }
-        }
+    for (int i = 0; i < count_of(points); ++i) {
+        target_point point = point_of(points, i);
+        float weight =
+            point.weight * weight_of_point(point.place, constants.alpha, constants.cutoff);
+        vec3 normal = normal_at(point.place, constants.alpha, constants.cutoff);
+        add_point(sums, normal, width_at(point.place), weight);
     }
     imageStore(moment_map, ivec3(position, SLOPE_LAYER_FIRST), sums.first);
     imageStore(moment_map, ivec3(position, SLOPE_LAYER_SECOND), sums.second);

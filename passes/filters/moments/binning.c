@@ -36,6 +36,9 @@ static void add_level(const filter_context *context, uint32_t index,
     specialise_binning(context, material, partition, colour, &list);
     passes_specialise(&list, SPECIALISE_TEXEL_SAMPLES, samples);
     struct lobe_grid_constants constants = passes_lobe_grid_constants(context, material);
+    if (colour && samples == 0)
+        passes_colour_square_specialise(material, &constants,
+                                        passes_base_maps_are_interpolated(material), &list);
     constants.level = level;
     lobe_dispatch dispatch = {.shader = seen ? "filters/moments/binning_seen_tiles.comp"
                                              : "filters/moments/binning.comp",
@@ -49,11 +52,9 @@ static void add_level(const filter_context *context, uint32_t index,
 /// Samples of level 0, of whose texels each covers four of the base maps': none, where these have
 /// fewer points.
 static uint32_t finest_samples(const device_material *material, uint32_t samples) {
-    const bool interpolated = passes_device_map_is_interpolated(material, MAP_NORMAL) ||
-                              passes_device_map_is_interpolated(material, MAP_WIDTH);
-    const uint32_t points = 4 * (passes_mask_cuts_texels(material) ? MASKED_TEXEL_POINTS
-                                 : interpolated                    ? TEXEL_POINTS
-                                                                   : 1);
+    const uint32_t points = 4 * (passes_mask_cuts_texels(material)             ? MASKED_TEXEL_POINTS
+                                 : passes_base_maps_are_interpolated(material) ? TEXEL_POINTS
+                                                                               : 1);
     return samples * samples < points ? samples : 0;
 }
 

@@ -90,11 +90,13 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
     const bool masked = passes_lobes_are_masked(material) && !passes_widths_lie_apart(material);
     passes_specialise(&list, SPECIALISE_MASKED_LOBES, masked);
     passes_specialise(&list, SPECIALISE_MASK_POINTS, masked && passes_mask_cuts_texels(material));
-    passes_specialise(
-        &list, SPECIALISE_INTERPOLATED,
+    const bool interpolated =
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
-            ((coloured || masked) && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
+        ((coloured || masked) && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR));
+    passes_specialise(&list, SPECIALISE_INTERPOLATED, interpolated);
     const struct lobe_grid_constants extent = extent_of(context, material);
+    if (coloured)
+        passes_colour_square_specialise(material, &extent, interpolated, &list);
     static const char *const shaders[] = {"maps/metal_means.comp",
                                           "maps/metal_means_seen_tiles.comp"};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);

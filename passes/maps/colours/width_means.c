@@ -16,13 +16,15 @@ static bool reads_colours(const device_material *material) {
 }
 
 static void specialise(const filter_context *context, const device_material *material,
-                       specialisation_list *list) {
+                       const struct lobe_grid_constants *extent, specialisation_list *list) {
     const uint32_t colours = reads_colours(material) ? 1u << MAP_BASE_COLOUR : 0;
     passes_lobes_specialise(material, 1u << MAP_WIDTH | colours, list);
-    passes_specialise(
-        list, SPECIALISE_INTERPOLATED,
+    const bool interpolated =
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
-            (colours && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR)));
+        (colours && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR));
+    passes_specialise(list, SPECIALISE_INTERPOLATED, interpolated);
+    if (colours)
+        passes_colour_square_specialise(material, extent, interpolated, list);
     passes_knob_specialise(context, &passes_knob_base, list);
 }
 
@@ -40,7 +42,7 @@ reduced_map passes_width_means(const filter_context *context, uint32_t index) {
     passes_base_colour_read(context, material, colours, pass);
     passes_reduced_map_write(&map, pass, "width_means_map", 0);
     specialisation_list list = {.graph = context->graph};
-    specialise(context, material, &list);
+    specialise(context, material, &extent, &list);
     static const char *const shaders[] = {"maps/width_means.comp", "maps/width_means.comp"};
     passes_grid_map_make(context, &extent, shaders, &list, pass, &map);
     return map;

@@ -83,7 +83,9 @@ void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture
         sums.mean.xyz += weight * (to_mixture * normal);
         sums.kept += weight;
         if (WEIGHTED)
-            weight *= mirrored_luminance(point, has_map(MAP_BASE_COLOUR));
+            weight *= mirrored_luminance(point, has_map(MAP_BASE_COLOUR)
+                                                    ? base_texel(base_colour_map, point).rgb
+                                                    : vec3(1.0));
         for (int i = 0; i < LOBE_COUNT; ++i) {
             vec3 axis = MODEL == MODEL_MICROFACET
                             ? normal

@@ -76,6 +76,10 @@ float weight_at(vec2 point) {
     return weight_of_point(point, constants.alpha, constants.cutoff);
 }
 
+vec3 base_colour_of(vec2 point) {
+    return value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb;
+}
+
 // The number of the bit that has `index` others below it.
 int find_bit(uint bits, int index) {
     for (int i = 0; i < index; ++i)
@@ -116,7 +120,7 @@ lobe_sums sum_points(sample_points chosen, int i, inout mixture_extremes own) {
         vec4 specular = vec4(0.0);
         vec3 diffuse;
         if (BIN_COLOUR) {
-            colours_at(point, specular, diffuse);
+            colours_at(point, base_colour_of(point), specular, diffuse);
             specular.rgb /= material.largest_colour;
         }
         vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
@@ -144,7 +148,7 @@ vec4 last_of_texel(ivec2 texel, inout mixture_extremes own) {
         vec4 specular;
         vec3 diffuse = vec3(0.0);
         if (BIN_COLOUR)
-            colours_at(point, specular, diffuse);
+            colours_at(point, base_colour_of(point), specular, diffuse);
         sum += weight_at(point) / float(POINTS) * vec4(diffuse / material.largest_colour, 1.0);
     }
     extend_colours(sum.rgb, own);

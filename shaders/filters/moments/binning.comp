@@ -14,7 +14,7 @@
 #include "maps/plane_lobes.glsl"
 #include "lib/lobe/bin_membership.glsl"
 #include "filters/moments/mirrored.glsl"
-#include "lib/map/box_reduction.glsl"
+#include "maps/colour_square.glsl"
 #include "lib/number/hash.glsl"
 #include "maps/target_texel.glsl"
 
@@ -91,14 +91,15 @@ void add_lobe(inout bin_sums sums, plane_lobe lobe, float weight) {
     }
 }
 
-void add_point(inout bin_sums sums, vec2 point, float weight) {
+// `base_colour`: of the map at the point.
+void add_point(inout bin_sums sums, vec2 point, vec3 base_colour, float weight) {
     weight *= weight_of_point(point, constants.alpha, constants.cutoff);
     vec3 normal = normal_at(point, constants.alpha, constants.cutoff);
     float factor = width_at(point);
     vec4 specular = vec4(0.0);
     vec3 diffuse = vec3(0.0);
     if (BIN_COLOUR) {
-        colours_at(point, specular, diffuse);
+        colours_at(point, base_colour, specular, diffuse);
         specular.rgb /= colour_unit();
     }
     sums.diffuse += weight * vec4(diffuse / colour_unit(), 1.0);
@@ -107,15 +108,14 @@ void add_point(inout bin_sums sums, vec2 point, float weight) {
 }
 
 void add_all_texels(inout bin_sums sums, ivec2 position, float part) {
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            float weight = part * row_weights[y] * column_weights[x] / float(POINTS);
-            for (int i = 0; i < POINTS; ++i)
-                add_point(sums, map_point(2 * position + ivec2(x, y), i, size), weight);
-        }
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
+    bool coloured = BIN_COLOUR && has_map(MAP_BASE_COLOUR);
+    if (coloured)
+        read_colours(points);
+    for (int i = 0; i < count_of(points); ++i) {
+        target_point point = point_of(points, i);
+        add_point(sums, point.place, coloured ? base_colour_at(point).rgb : vec3(1.0),
+                  part * point.weight);
     }
 }
 
@@ -127,7 +127,8 @@ void add_samples(inout bin_sums sums, ivec2 position, ivec2 extent, float part) 
         for (uint x = 0u; x < TEXEL_SAMPLES; ++x) {
             uint number = seed + 2u * (y * TEXEL_SAMPLES + x);
             vec2 place = vec2(x, y) + vec2(hashed_number(number), hashed_number(number + 1u));
-            add_point(sums, (vec2(position) + place / float(TEXEL_SAMPLES)) / vec2(extent),
+            vec2 point = (vec2(position) + place / float(TEXEL_SAMPLES)) / vec2(extent);
+            add_point(sums, point, value_at(MAP_BASE_COLOUR, base_colour_map, point).rgb,
                       part / float(TEXEL_SAMPLES * TEXEL_SAMPLES));
         }
     }

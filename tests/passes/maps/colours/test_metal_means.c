@@ -2,7 +2,12 @@
 // between black and blue paint, against the mean over its texels.
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "passes/maps/colours/metal_means.h"
+#include "shaders/interface/lobe_grid.h"
+#include "tests/passes/support/map_reference.h"
+#include "tests/passes/support/pass_run.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
@@ -200,11 +205,70 @@ static void what_a_mask_cuts_is_no_metal(void **state) {
     }
 }
 
+/// The mean of colour times metal over the points of the four texels under one of level 0.
+static void mean_over_points(const lobe_scene *scene, uint32_t x, uint32_t y,
+                             const uint32_t size[2], double mean[3]) {
+    const lobe_material *material = &scene->materials[0];
+    mean[0] = mean[1] = mean[2] = 0;
+    for (uint32_t i = 0; i < 4 * TEXEL_POINTS; i++) {
+        const double offset = 0.5 + (i % 2 == 0 ? TEXEL_POINT : -TEXEL_POINT);
+        const double u = (2 * x + i / 2 % 2 + offset) / size[0];
+        const double v = (2 * y + i / 4 + offset) / size[1]; // NOLINT: whole texels
+        double colour[4], width[4];
+        reference_map_value(scene, &material->base_colour_map, u, v, colour);
+        reference_map_value(scene, &material->metallic_roughness_map, u, v, width);
+        for (int j = 0; j < 3; j++)
+            mean[j] += width[2] * colour[j] / (4 * TEXEL_POINTS);
+    }
+}
+
+/// Colours and metal of independent texels, interpolated, at all edges.
+static void check_edges(fixture *f, const uint32_t size[2], lobe_scene_wrap wrap_u,
+                        lobe_scene_wrap wrap_v) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
+    material.base_colour_map = scene_add_map(scene, random_map(size[0], size[1], 0, 1, 171));
+    material.metallic_roughness_map = scene_add_map(scene, random_map(size[0], size[1], 0, 1, 172));
+    lobe_texture_use *uses[] = {&material.base_colour_map, &material.metallic_roughness_map};
+    for (int i = 0; i < 2; i++) {
+        uses[i]->wrap_u = wrap_u;
+        uses[i]->wrap_v = wrap_v;
+    }
+    scene_end_with_square(scene, &material);
+    pass_run run;
+    pass_run_begin(&run, f, scene, "lobes", (const char *[]){NULL});
+    const reduced_map map = passes_metal_means(&run.context, 0);
+    float *found = pass_run_read(&run, &map, LOBE_FORMAT_RGBA16_FLOAT);
+    for (uint32_t i = 0; i < map.width * map.height; i++) {
+        const uint32_t x = i % map.width, y = i / map.width;
+        double expected[3];
+        mean_over_points(scene, x, y, size, expected);
+        for (uint32_t j = 0; j < 3; j++)
+            if (!(fabs((double)found[4 * i + j] - expected[j]) < 0.002))
+                fail_msg("%u x %u, wrap %d and %d, texel %u, %u: %g instead of %g", size[0],
+                         size[1], (int)wrap_u, (int)wrap_v, x, y, (double)found[4 * i + j],
+                         expected[j]);
+    }
+    free(found);
+    pass_run_end(&run);
+    lobe_scene_destroy(&scene);
+}
+
+static void interpolated_colours_wrap_as_the_sampler_says(void **state) {
+    static const uint32_t sizes[][2] = {{8, 6}, {2, 4}};
+    static const lobe_scene_wrap wraps[] = {LOBE_SCENE_WRAP_REPEAT, LOBE_SCENE_WRAP_MIRROR,
+                                            LOBE_SCENE_WRAP_CLAMP};
+    for (int i = 0; i < 9; i++)
+        check_edges(*state, sizes[i % 2], wraps[i % 3], wraps[i / 3]);
+    check_edges(*state, (uint32_t[]){2, 2}, LOBE_SCENE_WRAP_REPEAT, LOBE_SCENE_WRAP_CLAMP);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gold_between_paint_is_the_mean_of_its_texels),
         cmocka_unit_test(a_mesh_tints_half_metal),
         cmocka_unit_test(what_a_mask_cuts_is_no_metal),
+        cmocka_unit_test(interpolated_colours_wrap_as_the_sampler_says),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
