@@ -40,6 +40,10 @@ lobe_surface own_surface() {
     surface.coordinates_dy.zw = dFdy(both_coordinates.zw);
     surface.colour = tint;
     surface.curvature = lobe_curvature(dFdx(frame[2]), dFdy(frame[2]), frame);
+    // For masks, of which pixels show parts.
+    surface.pixel = uvec2(gl_FragCoord.xy);
+    surface.depth = dot(normalize(vector(camera.target) - vector(camera.eye)),
+                        world_position - vector(camera.eye));
     return surface;
 }
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import tap
-from files import exr_header, exr_pixels, exr_texels, gltf_triangle, gltf_write
+from files import exr_header, exr_pixels, exr_texels, gltf_triangle, gltf_write, png_draw
 from program import FOLDER, check, report, succeeds
 
 EXAMPLES = Path(sys.argv[3]).resolve()
@@ -106,6 +106,34 @@ def test_own_shading_draws_what_render_draws():
 
 def test_own_shading_has_many_materials():
     draws_the_same("moments", "pillow", 64, 36)
+
+
+def test_own_shading_shows_parts_of_masks():
+    """Holes far smaller than pixels, of which as many are drawn as the mask keeps."""
+    document = gltf_triangle()
+    coordinates = struct.pack("<6f", -25, -25, 25, -25, 0, 25)
+    data = base64.b64encode(coordinates).decode()
+    document["buffers"].append({"byteLength": 24,
+                                "uri": "data:application/octet-stream;base64," + data})
+    document["bufferViews"].append({"buffer": 1, "byteLength": 24})
+    document["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 3,
+                                  "type": "VEC2"})
+    png_draw(FOLDER / "holes.png", 4, 4,
+             lambda x, y: (200, 100, 50, 0 if x % 2 == 0 and y % 2 == 0 else 255))
+    document["images"] = [{"uri": "holes.png"}]
+    document["textures"] = [{"source": 0}]
+    document["materials"] = [{"alphaMode": "MASK",
+                              "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    document["meshes"][0]["primitives"][0] |= {
+        "attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "material": 0}
+    document["extensionsUsed"] = ["KHR_lights_punctual"]
+    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional"}]}}
+    document["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
+    scene = FOLDER / "holes.gltf"
+    gltf_write(scene, document)
+    draws_the_same("moments", scene, 96, 54)
+    own, rendered = exr_texels(FOLDER / "own.exr"), exr_texels(FOLDER / "rendered.exr")
+    check([texel[0] for texel in own] == [texel[0] for texel in rendered], "other pixels are kept")
 
 
 def test_own_shading_has_vertex_colours():

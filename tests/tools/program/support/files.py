@@ -134,11 +134,12 @@ def png_write(path, width, height, colour):
 
 
 def png_draw(path, width, height, colour_at):
-    """The same, `colour_at(x, y)` is a pixel's RGB."""
+    """The same, `colour_at(x, y)` is a pixel's RGB, or RGBA."""
+    kind = 6 if len(colour_at(0, 0)) == 4 else 2
     rows = b"".join(b"\0" + b"".join(bytes(colour_at(x, y)) for x in range(width))
                     for y in range(height))
     path.write_bytes(b"\x89PNG\r\n\x1a\n" +
-                     _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+                     _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)) +
                      _chunk(b"IDAT", zlib.compress(rows)) + _chunk(b"IEND", b""))
 
 
