@@ -57,8 +57,9 @@ static uint32_t extent_at(uint32_t size, uint32_t level) {
     return size >> level > 0 ? size >> level : 1;
 }
 
-void passes_reduced_map_dispatch(const reduced_map *map, lobe_pass *pass, uint32_t level,
-                                 uint32_t layers, lobe_dispatch *dispatch) {
+/// `texels`: how many of the level an invocation makes, each way.
+static void dispatch_level(const reduced_map *map, lobe_pass *pass, uint32_t level, uint32_t layers,
+                           uint32_t texels, lobe_dispatch *dispatch) {
     if (map->tiles.version > 0) {
         lobe_pass_read(pass, &(lobe_binding){.name = "tile_list_block", .resource = map->tiles});
         dispatch->indirect = map->tiles;
@@ -67,10 +68,15 @@ void passes_reduced_map_dispatch(const reduced_map *map, lobe_pass *pass, uint32
         dispatch->indirect = map->groups;
         dispatch->indirect_offset = map->groups_offset + level * 4 * sizeof(uint32_t);
     }
-    dispatch->threads[0] = extent_at(map->width, level);
-    dispatch->threads[1] = extent_at(map->height, level);
+    dispatch->threads[0] = extent_at(map->width, level) / texels;
+    dispatch->threads[1] = extent_at(map->height, level) / texels;
     dispatch->threads[2] = layers;
     lobe_pass_dispatch(pass, dispatch);
+}
+
+void passes_reduced_map_dispatch(const reduced_map *map, lobe_pass *pass, uint32_t level,
+                                 uint32_t layers, lobe_dispatch *dispatch) {
+    dispatch_level(map, pass, level, layers, 1, dispatch);
 }
 
 /// The pass that writes three levels at once needs sizes that are multiples of eight.
@@ -100,7 +106,7 @@ static uint32_t reduce_step(lobe_graph *graph, reduced_map *map, const source_le
     lobe_dispatch dispatch = {.shader = shaders[tiled][seen],
                               .constants = seen ? &first : NULL,
                               .constants_size = seen ? sizeof first : 0};
-    passes_reduced_map_dispatch(map, pass, first, map->layers, &dispatch);
+    dispatch_level(map, pass, first, map->layers, tiled ? 2 : 1, &dispatch);
     return tiled ? 3 : 1;
 }
 
