@@ -1,30 +1,13 @@
 #include "passes/maps/material_patch.h"
 
+#include <lobe/colour.h>
 #include <math.h>
 
 #include "passes/context/sample_pattern.h"
+#include "passes/maps/colours/mirrored_luminance.h"
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
-
-/// Xu et al. 2017, Eq. 6, as in shaders/lib/lobe/von_mises_fisher.glsl.
-static double evaluate(const material_lobe *lobe, const double direction[3]) {
-    double kappa = fmax(lobe->concentration, 1e-20), square = 0;
-    for (int i = 0; i < 3; i++)
-        square += (direction[i] - lobe->axis[i]) * (direction[i] - lobe->axis[i]);
-    return lobe->weight * kappa / (-2 * M_PI * expm1(-2 * kappa)) * exp(-0.5 * kappa * square);
-}
-
-double passes_material_lobes_evaluate(const material_lobe *lobes, size_t count,
-                                      const double direction[3]) {
-    double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        sum += evaluate(&lobes[i], direction);
-    return sum;
-}
-
-double passes_material_patch_evaluate(const material_patch *patch, const double direction[3]) {
-    return passes_material_lobes_evaluate(patch->lobes, patch->count, direction);
-}
+#include "shaders/interface/mirrored.h"
 
 /// Where a patch lies in the lobe_grid, texels.
 typedef struct patch_place {
@@ -55,36 +38,49 @@ static void place_point(const patch_place *at, const lobe_mask *mask, uint32_t i
     point[1] = y + 0.5 + TEXEL_POINT;
 }
 
-bool passes_material_patch_read(const device_material *material, const lobe_mask *mask,
-                                uint32_t index, material_patch *patch) {
+/// By what a texel mirrors, as shaders/maps/mirrored_luminance.glsl does.
+static double weight_of(const material_colours *colours) {
+    const float specular[3] = {(float)colours->specular[0], (float)colours->specular[1],
+                               (float)colours->specular[2]};
+    // Texels may hold anything.
+    const double luminance = fmin(fmax((double)lobe_luminance(specular), 0), 1e3);
+    return (1 - LEAST_MIRRORED) * luminance + LEAST_MIRRORED;
+}
+
+/// Multiplies the weights of the patch's last lobes, which are those of a texel.
+static void weight_texel(const device_scene *scene, const device_material *material,
+                         const patch_place *at, uint32_t i, material_patch *patch) {
+    const size_t last = patch->count - 1;
+    if (!patch->has_colours)
+        return;
+    patch->has_colours =
+        passes_material_colours_read(scene->scene, material, at->left + i % at->columns,
+                                     at->top + i / at->columns, &patch->colours[last]);
+    if (patch->has_colours)
+        patch->lobes[last].weight *= weight_of(&patch->colours[last]);
+}
+
+bool passes_material_patch_read(const device_scene *scene, const device_material *material,
+                                const lobe_mask *mask, uint32_t index, material_patch *patch) {
     const patch_place at = place_patch(material, index);
-    uint32_t kept = 0;
     patch->count = 0;
+    patch->has_colours = passes_mirrored_luminance_varies(material);
     for (uint32_t i = 0; i < at.columns * at.rows; i++) {
         double point[2];
         place_point(&at, mask, i, point);
         if (passes_lobe_mask_cuts(mask, point))
             continue;
-        kept++;
         uint32_t count =
             passes_material_lobes_read(material, point[0], point[1], &patch->lobes[patch->count]);
         if (count == 0)
             return false;
         patch->count += count;
+        weight_texel(scene, material, &at, i, patch);
     }
+    double sum = 0;
     for (size_t i = 0; i < patch->count; i++)
-        patch->lobes[i].weight /= kept;
+        sum += patch->lobes[i].weight;
+    for (size_t i = 0; i < patch->count; i++)
+        patch->lobes[i].weight /= sum;
     return true;
-}
-
-void passes_material_patch_draw(const material_patch *patch, uint32_t index, double direction[3]) {
-    const material_lobe *lobe = &patch->lobes[index * 7919u % patch->count];
-    float position[2];
-    passes_sample_position(index, MATERIAL_PATCH_DIRECTIONS, position);
-    double angle = 2 * M_PI * position[1];
-    // The inverse of a narrow lobe's distribution in 1 - cos.
-    double versine = fmin(-log1p(-0.999 * position[0]) / fmax(lobe->concentration, 1), 2);
-    double sine = sqrt(versine * (2 - versine));
-    double local[3] = {sine * cos(angle), sine * sin(angle), 1 - versine};
-    passes_material_lobe_rotate(lobe->axis, local, direction);
 }

@@ -133,7 +133,7 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// The subdivision for a material's maps
+// What the texels of a material's maps decide
 
 /// What is kept for a material between frames.
 typedef struct prepared_lobes {
@@ -157,7 +157,7 @@ static bool is_in_tangent_space(const filter_context *context, uint32_t material
 }
 
 /// Whether the material's maps decide its subdivision.
-static bool needs_choice(const filter_context *context, uint32_t material) {
+static bool needs_subdivision(const filter_context *context, uint32_t material) {
     const device_material *uploaded = &context->scene->materials[material];
     const lobe_grid grid = passes_lobe_grid(uploaded);
     return passes_lobe_grid_varies(&grid) && !has_one_direction(uploaded) &&
@@ -171,24 +171,27 @@ static bool needs_widths(const filter_context *context, const device_material *m
            passes_knob_choice(context, &widths_knob) == 0;
 }
 
-/// How many times the least error serves as well, for the choice of a subdivision. Clusters that
-/// are split by their length are drawn more coarsely than the choice measures, so finer ones gain
-/// less.
-static double tolerance_of(const filter_context *context) {
-    return passes_knob_choice(context, &threshold_knob) == THRESHOLD_LENGTH ? 1.5 : 1.15;
+static uint32_t choose_subdivision(const filter_context *context, const device_material *material) {
+    const subdivision_request request = {
+        .clusters = passes_knob_choice(context, &clusters_knob),
+        .widths = needs_widths(context, material) ? 2 : 1,
+        .threshold = passes_knob_choice(context, &threshold_knob),
+        // Other values do not decide slots.
+        .epsilon0 = epsilon0_knob.description.initial,
+        .epsilon1 = epsilon1_knob.description.initial,
+        .blend = blend_knob.description.initial,
+    };
+    return passes_subdivision_choose(context->scene, material, &request);
 }
 
-static lobe_result prepare(const filter_context *context, uint32_t material, void **slot) {
-    if (*slot || !needs_choice(context, material))
+static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
+    if (*slot || !needs_subdivision(context, index))
         return LOBE_OK;
     prepared_lobes *prepared =
         lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
     if (!prepared)
         return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->subdivision = passes_subdivision_choose(
-        context->scene, &context->scene->materials[material],
-        passes_knob_choice(context, &clusters_knob),
-        needs_widths(context, &context->scene->materials[material]) ? 2 : 1, tolerance_of(context));
+    prepared->subdivision = choose_subdivision(context, &context->scene->materials[index]);
     *slot = prepared;
     return LOBE_OK;
 }

@@ -3,24 +3,18 @@
 #include <math.h>
 #include <string.h>
 
-#include "passes/maps/material_patch.h"
+#include "passes/context/sample_pattern.h"
+#include "passes/filters/lobes/base_widths.h"
+#include "passes/filters/lobes/lobe_shapes.h"
 #include "shaders/interface/cluster.h"
+#include "shaders/interface/mixture.h"
 
-// A subdivision is good enough if its error is at most this, too: each finer one more than doubles
-// the maps.
+// A subdivision is good enough if its error is at most this many times the least: each finer one
+// more than doubles the maps. Four clusters leave a dip between them, in the highlight's middle,
+// and are for lobes that lean to their sides.
+static const double tolerances[] = {1.2, 1.05, 1};
+// Or at most this.
 static const double negligible = 0.03;
-
-/// The inverse of mean_resultant_length: Xu et al. 2017, Eq. 8, and Newton's method.
-static double concentration(double length) {
-    double r = fmin(length, 1 - 1e-7);
-    double kappa = r * (3 - r * r) / (1 - r * r);
-    for (int i = 0; i < 3 && kappa > 1e-3; i++) {
-        double sinh_kappa = sinh(fmin(kappa, 300));
-        kappa -= (passes_mean_resultant_length(kappa) - r) /
-                 (1 / (kappa * kappa) - 1 / (sinh_kappa * sinh_kappa));
-    }
-    return kappa;
-}
 
 static uint32_t cluster_of(const double axis[3], uint32_t clusters) {
     if (clusters == CLUSTERS_PAPER) {
@@ -33,43 +27,7 @@ static uint32_t cluster_of(const double axis[3], uint32_t clusters) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Mixtures and their errors
-
-enum { MAXIMUM_WIDTHS = 2, MAXIMUM_LOBES = 8 * MAXIMUM_WIDTHS };
-
-/// Base lobes that stand for those of a patch: as in shaders/lib/lobe/width_pair.glsl.
-typedef struct base_widths {
-    uint32_t count;
-    double complements[MAXIMUM_WIDTHS]; ///< 1 - |r|
-    double parts[MAXIMUM_WIDTHS];
-} base_widths;
-
-static double complement_of(const material_lobe *lobe) {
-    return 1 - passes_mean_resultant_length(lobe->concentration);
-}
-
-static base_widths widths_of(const material_patch *source, uint32_t count) {
-    double powers[3] = {0};
-    for (size_t i = 0; i < source->count && count > 1; i++) {
-        const double u = 1 + 0.2 * log(fmax(complement_of(&source->lobes[i]), 1e-6));
-        for (int j = 0; j < 3; j++)
-            powers[j] += source->lobes[i].weight * pow(u, j + 1);
-    }
-    const double mean = powers[0], variance = powers[1] - mean * mean;
-    if (!(variance > 1e-6))
-        return (base_widths){.count = 1};
-    const double deviation = sqrt(variance);
-    const double skewness =
-        (powers[2] - mean * (3 * variance + mean * mean)) / (variance * deviation);
-    const double root = sqrt(skewness * skewness + 4);
-    base_widths widths = {.count = 2};
-    for (int k = 0; k < 2; k++) {
-        const double u = mean + 0.5 * deviation * (skewness + (k == 0 ? -root : root));
-        widths.complements[k] = fmin(exp(5 * (u - 1)), 1);
-        widths.parts[k] = 0.5 + (k == 0 ? 0.5 : -0.5) * skewness / root;
-    }
-    return widths;
-}
+// Clusters
 
 /// What a cluster has.
 typedef struct cluster_sum {
@@ -78,88 +36,227 @@ typedef struct cluster_sum {
     double complement; ///< of base lobes, by their weights
 } cluster_sum;
 
-/// Adds the cluster's lobes of each width; returns their number.
-static size_t add_cluster(const cluster_sum *sum, const base_widths *widths,
-                          material_lobe *mixture) {
+/// Clusters of all subdivisions; of each, the children of cluster i are 2i and 2i + 1 of the next,
+/// but those of the one are the four.
+typedef struct cluster_tree {
+    cluster_sum one, sectors[4], halves[8];
+} cluster_tree;
+
+static void add_sum(cluster_sum *sum, const cluster_sum *part) {
+    for (int axis = 0; axis < 3; axis++)
+        sum->vector[axis] += part->vector[axis];
+    sum->weight += part->weight;
+    sum->complement += part->complement;
+}
+
+static cluster_tree sum_clusters(const material_patch *source, uint32_t clusters) {
+    cluster_tree tree = {0};
+    for (size_t i = 0; i < source->count; i++) {
+        const material_lobe *lobe = &source->lobes[i];
+        const double complement = passes_lobe_complement(lobe);
+        cluster_sum part = {.weight = lobe->weight, .complement = lobe->weight * complement};
+        for (int axis = 0; axis < 3; axis++)
+            part.vector[axis] = lobe->weight * (1 - complement) * lobe->axis[axis];
+        add_sum(&tree.halves[cluster_of(lobe->axis, clusters)], &part);
+    }
+    for (int i = 0; i < 8; i++)
+        add_sum(&tree.sectors[i / 2], &tree.halves[i]);
+    for (int i = 0; i < 4; i++)
+        add_sum(&tree.one, &tree.sectors[i]);
+    return tree;
+}
+
+/// What base lobes a cluster has, and how its normals shorten their vectors.
+typedef struct cluster_shape {
+    double axis[3];
+    double complement;                                         ///< 1 - |r|
+    double parts[MAXIMUM_WIDTHS], complements[MAXIMUM_WIDTHS]; ///< of lobes about each width
+} cluster_shape;
+
+static cluster_shape shape_of(const cluster_sum *sum, const base_widths *widths) {
     const double *vector = sum->vector;
     const double length =
         sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
-    if (length == 0)
-        return 0;
     const double base = sum->complement / sum->weight;
-    const double range = widths->complements[1] - widths->complements[0];
-    const double broad =
-        widths->count > 1 ? fmin(fmax((base - widths->complements[0]) / range, 0), 1) : 0;
+    cluster_shape shape = {.complement = 1 - length / sum->weight, .parts = {1}};
+    for (int axis = 0; axis < 3; axis++)
+        shape.axis[axis] = length > 0 ? vector[axis] / length : axis == 2;
+    if (widths->count > 1) {
+        const double range = widths->complements[1] - widths->complements[0];
+        shape.parts[1] = fmin(fmax((base - widths->complements[0]) / range, 0), 1);
+        shape.parts[0] = 1 - shape.parts[1];
+    }
+    const double shortened = fmin((1 - shape.complement) / fmax(1 - base, 1e-3), 1);
+    for (uint32_t k = 0; k < widths->count; k++)
+        shape.complements[k] =
+            widths->count > 1 ? 1 - (1 - widths->complements[k]) * shortened : shape.complement;
+    return shape;
+}
+
+/// How far a cluster is refined [0, 1], as in shaders/filters/lobes.glsl.
+static double refinement(const cluster_sum *sum, const base_widths *widths,
+                         const subdivision_request *request, double epsilon) {
+    if (!(sum->weight > 0))
+        return 0;
+    const cluster_shape shape = shape_of(sum, widths);
+    double measure = 0;
     for (uint32_t k = 0; k < widths->count; k++) {
-        double resultant = length / sum->weight;
-        if (widths->count > 1)
-            resultant = (1 - widths->complements[k]) * fmin(resultant / (1 - base), 1);
-        mixture[k] = (material_lobe){.concentration = concentration(resultant),
-                                     .weight = sum->weight * (k == 0 ? 1 - broad : broad)};
-        for (int axis = 0; axis < 3; axis++)
-            mixture[k].axis[axis] = vector[axis] / length;
+        const double base = fmax(widths->complements[k], 1e-6);
+        measure += shape.parts[k] / (1 + fmax(shape.complements[k] - base, 0) / base);
     }
-    return widths->count;
+    if (request->threshold == THRESHOLD_LENGTH)
+        measure = 1 - shape.complement;
+    const double place = 0.5 + 0.5 * (measure - epsilon) / fmax(request->blend, 1e-9);
+    const double t = fmin(fmax(place, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
 }
 
-static size_t make_mixture(const material_patch *source, uint32_t subdivision, uint32_t clusters,
-                           const base_widths *widths, material_lobe mixture[MAXIMUM_LOBES]) {
-    static const uint32_t clusters_a_lobe[] = {8, 2, 1};
-    cluster_sum sums[8] = {0};
-    for (size_t i = 0; i < source->count; i++) {
-        const material_lobe *lobe = &source->lobes[i];
-        cluster_sum *sum = &sums[cluster_of(lobe->axis, clusters) / clusters_a_lobe[subdivision]];
-        double complement = complement_of(lobe);
-        for (int axis = 0; axis < 3; axis++)
-            sum->vector[axis] += lobe->weight * (1 - complement) * lobe->axis[axis];
-        sum->weight += lobe->weight;
-        sum->complement += lobe->weight * complement;
+// ---------------------------------------------------------------------------------------------
+// Mixtures as they are drawn
+
+/// A cluster's lobe of one width: a von Mises-Fisher lobe and, where they keep it, one of the base
+/// lobes' shape.
+typedef struct drawn_lobe {
+    double axis[3];
+    double concentration, weight;
+    double own_concentration, own_weight;
+} drawn_lobe;
+
+enum { MAXIMUM_LOBES = 13 * MAXIMUM_WIDTHS };
+
+typedef struct drawn_mixture {
+    drawn_lobe lobes[MAXIMUM_LOBES];
+    size_t count;
+} drawn_mixture;
+
+/// As make_lobe in shaders/filters/lobes.glsl.
+static drawn_lobe make_lobe(const lobe_material *material, const cluster_shape *shape,
+                            uint32_t width, double base, double weight) {
+    const double complement = shape->complements[width];
+    drawn_lobe lobe = {.concentration = passes_lobe_concentration(1 - complement),
+                       .weight = weight};
+    memcpy(lobe.axis, shape->axis, sizeof lobe.axis);
+    if (passes_lobes_keep_shape(material)) {
+        const double own = fmin(base / fmax(complement, 1e-6), 1);
+        lobe.own_concentration = lobe.concentration;
+        lobe.own_weight = own * weight;
+        lobe.weight *= 1 - own;
+        if (material->distribution == LOBE_DISTRIBUTION_GGX)
+            lobe.concentration /= 1 + 0.56 * sqrt(own);
     }
-    size_t count = 0;
-    for (uint32_t i = 0; i < 8; i++)
-        count += add_cluster(&sums[i], widths, &mixture[count]);
-    return count;
+    if (material->model == LOBE_MATERIAL_MICROFACET)
+        lobe.weight /= passes_lobe_projected_area(passes_lobe_concentration(1 - base));
+    return lobe;
 }
 
-static void add_errors(const material_patch *source, uint32_t clusters, uint32_t width_count,
-                       double errors[3]) {
-    const base_widths widths = widths_of(source, width_count);
-    material_lobe mixtures[3][MAXIMUM_LOBES];
-    size_t counts[3];
-    for (uint32_t subdivision = 0; subdivision < 3; subdivision++)
-        counts[subdivision] =
-            make_mixture(source, subdivision, clusters, &widths, mixtures[subdivision]);
+/// Adds a cluster's lobes, of this share of its weight.
+static void add_cluster(const lobe_material *material, const cluster_sum *sum, double share,
+                        const base_widths *widths, drawn_mixture *mixture) {
+    if (!(share * sum->weight > 0))
+        return;
+    const cluster_shape shape = shape_of(sum, widths);
+    for (uint32_t k = 0; k < widths->count; k++)
+        mixture->lobes[mixture->count++] = make_lobe(material, &shape, k, widths->complements[k],
+                                                     share * sum->weight * shape.parts[k]);
+}
+
+/// Xu et al. 2017, Algorithm 1.
+static void make_mixture(const lobe_material *material, const cluster_tree *tree,
+                         uint32_t subdivision, const base_widths *widths,
+                         const subdivision_request *request, drawn_mixture *mixture) {
+    const double root =
+        subdivision > 0 ? refinement(&tree->one, widths, request, request->epsilon0) : 0;
+    mixture->count = 0;
+    add_cluster(material, &tree->one, 1 - root, widths, mixture);
+    for (uint32_t i = 0; i < 4; i++) {
+        const double half =
+            subdivision > 1 ? refinement(&tree->sectors[i], widths, request, request->epsilon1) : 0;
+        add_cluster(material, &tree->sectors[i], root * (1 - half), widths, mixture);
+        for (uint32_t j = 0; j < 2; j++)
+            add_cluster(material, &tree->halves[2 * i + j], root * half, widths, mixture);
+    }
+}
+
+static double evaluate_mixture(const lobe_material *material, const drawn_mixture *mixture,
+                               const double direction[3]) {
+    double sum = 0;
+    for (size_t i = 0; i < mixture->count; i++) {
+        const drawn_lobe *lobe = &mixture->lobes[i];
+        sum +=
+            lobe->weight * passes_lobe_von_mises_fisher(lobe->axis, lobe->concentration, direction);
+        if (lobe->own_weight > 0)
+            sum +=
+                lobe->own_weight * passes_lobe_of_microfacets(material->distribution, lobe->axis,
+                                                              lobe->own_concentration, direction);
+    }
+    return sum;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Errors
+
+static double evaluate_patch(const lobe_material *material, const material_patch *source,
+                             const double direction[3]) {
+    double sum = 0;
+    for (size_t i = 0; i < source->count; i++)
+        sum +=
+            source->lobes[i].weight * passes_lobe_of_base(material, &source->lobes[i], direction);
+    return sum;
+}
+
+/// A lobe of the patch, each as often as it counts. Neighbours of a map come far apart.
+static const material_lobe *draw_lobe(const material_patch *source, uint32_t index) {
+    double place = fmod((index + 0.5) * 0.6180339887498949, 1);
+    size_t i = 0;
+    while (i + 1 < source->count && place >= source->lobes[i].weight)
+        place -= source->lobes[i++].weight;
+    return &source->lobes[i];
+}
+
+/// Adds the root mean square errors of a patch's mixtures, relative to its light, over directions
+/// that are drawn in proportion to that: the highlight's middle counts most.
+static void add_errors(const lobe_material *material, const material_patch *source,
+                       const subdivision_request *request, double errors[3]) {
+    const base_widths widths = passes_base_widths(source, request->widths);
+    const cluster_tree tree = sum_clusters(source, request->clusters);
+    drawn_mixture mixtures[3];
+    double squares[3] = {0}, light = 0;
+    for (uint32_t k = 0; k < 3; k++)
+        make_mixture(material, &tree, k, &widths, request, &mixtures[k]);
     for (uint32_t i = 0; i < MATERIAL_PATCH_DIRECTIONS; i++) {
+        float position[2];
         double direction[3];
-        passes_material_patch_draw(source, i, direction);
-        double truth = passes_material_patch_evaluate(source, direction);
-        for (int subdivision = 0; truth > 0 && subdivision < 3; subdivision++) {
-            double value = passes_material_lobes_evaluate(mixtures[subdivision],
-                                                          counts[subdivision], direction);
-            errors[subdivision] +=
-                fabs(value - truth) / truth / (MATERIAL_PATCHES * MATERIAL_PATCH_DIRECTIONS);
+        passes_sample_position(i, MATERIAL_PATCH_DIRECTIONS, position);
+        passes_lobe_draw(material, draw_lobe(source, i), position, direction);
+        const double truth = evaluate_patch(material, source, direction);
+        light += truth * truth;
+        for (int k = 0; truth > 0 && k < 3; k++) {
+            const double error = evaluate_mixture(material, &mixtures[k], direction) - truth;
+            squares[k] += error * error;
         }
     }
+    for (int k = 0; light > 0 && k < 3; k++)
+        errors[k] += sqrt(squares[k] / light) / MATERIAL_PATCHES;
 }
 
 uint32_t passes_subdivision_choose(const device_scene *scene, const device_material *material,
-                                   uint32_t clusters, uint32_t widths, double tolerance) {
+                                   const subdivision_request *request) {
     const lobe_mask mask = passes_lobe_mask(scene, material);
     double errors[3] = {0};
     material_patch source;
     bool any = false;
     for (uint32_t i = 0; i < MATERIAL_PATCHES; i++) {
-        if (!passes_material_patch_read(material, &mask, i, &source))
+        if (!passes_material_patch_read(scene, material, &mask, i, &source))
             return 2;
         if (source.count > 0)
-            add_errors(&source, clusters, widths, errors);
+            add_errors(material->material, &source, request, errors);
         any = any || source.count > 0;
     }
     if (!any)
         return 2;
-    double least = fmin(errors[0], fmin(errors[1], errors[2]));
+    const double least = fmin(errors[0], fmin(errors[1], errors[2]));
     uint32_t subdivision = 0;
-    while (errors[subdivision] > fmax(tolerance * least, negligible))
+    while (errors[subdivision] > fmax(tolerances[subdivision] * least, negligible))
         ++subdivision;
     return subdivision;
 }

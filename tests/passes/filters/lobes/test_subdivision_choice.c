@@ -8,6 +8,7 @@
 #include "passes/filters/lobes/subdivision_choice.h"
 #include "passes/upload/scene_upload.h"
 #include "shaders/interface/cluster.h"
+#include "shaders/interface/mixture.h"
 #include "tests/passes/support/scene_builder.h"
 
 /// Uploads a scene of one square and returns the choice for its material.
@@ -16,8 +17,13 @@ static uint32_t choose(fixture *f, lobe_scene *scene, const lobe_material *mater
     device_scene *uploaded;
     assert_int_equal(passes_device_scene_create(f->device, f->graph, scene, &f->host, &uploaded),
                      LOBE_OK);
-    uint32_t subdivision =
-        passes_subdivision_choose(uploaded, &uploaded->materials[0], CLUSTERS_TURNED, 2, 1.15);
+    const subdivision_request request = {.clusters = CLUSTERS_TURNED,
+                                         .widths = 2,
+                                         .threshold = THRESHOLD_DISPERSION,
+                                         .epsilon0 = 0.95,
+                                         .epsilon1 = 0.85,
+                                         .blend = 0.02};
+    uint32_t subdivision = passes_subdivision_choose(uploaded, &uploaded->materials[0], &request);
     passes_device_scene_destroy(&uploaded);
     lobe_scene_destroy(&scene);
     return subdivision;
@@ -98,6 +104,36 @@ static void base_lobes_count_as_well(void **state) {
     assert_int_equal(choose(*state, scene, &material), 1);
 }
 
+/// Slopes at random, normally distributed.
+static lobe_image spread_normals(double deviation) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, 64, 64);
+    for (uint32_t i = 0; i < 64 * 64; i++) {
+        const double part = (i * 1597u % 4096 + 0.5) / 4096, angle = 2.4 * i;
+        const double slope = deviation * sqrt(-2 * log(part)),
+                     scale = 0.5 / sqrt(1 + slope * slope);
+        float *texel = (float *)image.texels + 4 * i;
+        texel[0] = (float)(0.5 + scale * slope * cos(angle));
+        texel[1] = (float)(0.5 + scale * slope * sin(angle));
+        texel[2] = (float)(0.5 + scale);
+    }
+    return image;
+}
+
+static uint32_t choose_for_metal(fixture *f, lobe_distribution distribution) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(distribution, 0.6, 1);
+    material.normal_map = scene_add_map(scene, spread_normals(0.4));
+    material.normal_map.nearest = true;
+    return choose(f, scene, &material);
+}
+
+/// Four lobes leave a dip between them. That of GGX is deeper, so that eight are better; where the
+/// lobes fall off faster, four are about as good.
+static void shapes_of_microfacets_count(void **state) {
+    assert_int_equal(choose_for_metal(*state, LOBE_DISTRIBUTION_GGX), 2);
+    assert_int_equal(choose_for_metal(*state, LOBE_DISTRIBUTION_BECKMANN), 1);
+}
+
 /// Maps of any size give a choice; for formats that the host cannot read it is eight clusters.
 static void any_map_has_an_answer(void **state) {
     static const double one_side[][2] = {{2, 5}, {35, 5}};
@@ -128,6 +164,7 @@ int main(void) {
         cmocka_unit_test(as_many_as_directions_need),
         cmocka_unit_test(what_a_mask_cuts_does_not_count),
         cmocka_unit_test(base_lobes_count_as_well),
+        cmocka_unit_test(shapes_of_microfacets_count),
         cmocka_unit_test(any_map_has_an_answer),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
