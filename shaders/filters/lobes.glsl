@@ -11,6 +11,7 @@
 #include "shading/level_0.glsl"
 #include "shading/mask.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
+#include "lib/light/luminance.glsl"
 #include "lib/lobe/dispersion.glsl"
 #include "lib/lobe/width_pair.glsl"
 
@@ -24,6 +25,7 @@ layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
 layout(constant_id = SPECIALISE_WIDTH_LAYER) const uint WIDTH_LAYER = 0;
+layout(constant_id = SPECIALISE_WIDTH_COLOURS) const bool WIDTH_COLOURS = false;
 layout(constant_id = SPECIALISE_SPACE) const uint SPACE = SPACE_TANGENT;
 layout(constant_id = SPECIALISE_THRESHOLD) const uint THRESHOLD = THRESHOLD_DISPERSION;
 layout(constant_id = SPECIALISE_ONE_HUE) const bool ONE_HUE = false;
@@ -61,6 +63,7 @@ struct appearance {
     vec2 complements;       // 1 - |r| of the first WIDTHS, which stand for all of them
     vec2 width_parts;       // and their parts
     vec4 cluster_widths[2]; // sums of 1 - |r| in clusters
+    vec3 width_tints[2];    // F0 of either width, over that of the footprint
     vec2 lobe_scales;       // factors of the weights of lobes about base lobes so wide
     float resultant_scale;  // of |r|: 1, unless widths lie apart
     float complement;       // 1 - |r| of the footprint's one lobe if it were about the normals
@@ -68,6 +71,7 @@ struct appearance {
     vec3 diffuse_normal;    // mean of the texels' normals, at most of unit length
     mat3 mixture_from_tangent;
     vec4 distributions; // the mixture at the half vectors of the lights gathered last
+    vec4 broad_distributions; // the second width's part of it
     float breadth;      // 1 - |r| of that lobe, widened by curvature
     float spread;       // [0, 1]: part of the breadth that is due to varying normals
     // Of the whole pixel.
@@ -134,12 +138,28 @@ vec4 fetch_mean(map_area area, out float coverage, out float weight) {
     return vec4(one.xyz / max(weight * (1.0 - complement), LEAST_WEIGHT), complement);
 }
 
+// What colour each of two widths has. Vertices' colours tint both alike. `powers`: of the layer of
+// widths, over `weight`.
+void take_width_tints(inout appearance fetched, width_pair pair, vec4 powers, float coverage,
+                      float weight) {
+    vec4 sums =
+        filtered_layer(mixture_map, fetched.area, WIDTH_LAYER + 1u + SUBDIVISION) / weight;
+    // F0 without the white that weights have.
+    vec3 colour = 1.0 - LEAST_MIRRORED * coverage / weight + chroma_of_red_and_blue(sums.xy);
+    vec3 products = powers.x - LEAST_MIRRORED * powers.w + chroma_of_red_and_blue(sums.zw);
+    vec3 broad = broad_share(pair, powers.x, colour, products);
+    fetched.width_tints[0] = (1.0 - broad) / max(pair.parts.x, 1e-4);
+    fetched.width_tints[1] = broad / max(pair.parts.y, 1e-4);
+}
+
 // Two widths with the footprint's moments of all.
-void take_widths(inout appearance fetched, float weight) {
-    vec3 powers = filtered_layer(mixture_map, fetched.area, WIDTH_LAYER).xyz;
-    width_pair pair = width_pair_of(powers / weight);
+void take_widths(inout appearance fetched, float coverage, float weight) {
+    vec4 powers = filtered_layer(mixture_map, fetched.area, WIDTH_LAYER) / weight;
+    width_pair pair = width_pair_of(powers.xyz);
     fetched.complements = pair.complements;
     fetched.width_parts = pair.parts;
+    if (WIDTH_COLOURS)
+        take_width_tints(fetched, pair, powers, coverage, weight);
 }
 
 // What the walk needs of the clusters' own base lobes, once it goes beyond one cluster.
@@ -324,15 +344,17 @@ walk start_walk(appearance fetched) {
     return at;
 }
 
-float evaluate_lobe(lobe one, vec3 direction) {
-    float value = 0.0, square = difference_squared(direction, one.axis);
+vec2 evaluate_lobe(lobe one, vec3 direction) {
+    vec2 values = vec2(0.0);
+    float square = difference_squared(direction, one.axis);
     for (int width = 0; width < WIDTHS; ++width) {
-        value += one.weight[width] * exp(-0.5 * one.concentration[width] * square);
+        values[width] = one.weight[width] * exp(-0.5 * one.concentration[width] * square);
         if (keeps_shape())
-            value += one.own_weight[width] *
-                     normal_distribution(DISTRIBUTION, one.axis, direction, one.parameter[width]);
+            values[width] +=
+                one.own_weight[width] *
+                normal_distribution(DISTRIBUTION, one.axis, direction, one.parameter[width]);
     }
-    return value;
+    return values;
 }
 
 vec3 mixture_half_vector(appearance fetched, surface_point surface, vec3 incoming) {
@@ -344,14 +366,21 @@ struct light_directions {
     vec3 first, second, third, fourth;
 };
 
+void add_lobe_to_light(inout appearance fetched, lobe next, uint light, vec3 halfway) {
+    vec2 values = evaluate_lobe(next, halfway);
+    fetched.distributions[light] += values.x + values.y;
+    if (WIDTH_COLOURS)
+        fetched.broad_distributions[light] += values.y;
+}
+
 void add_lobe(inout appearance fetched, lobe next, light_directions halfway) {
-    fetched.distributions[0] += evaluate_lobe(next, halfway.first);
+    add_lobe_to_light(fetched, next, 0u, halfway.first);
     if (LIGHTS_AT_ONCE > 1u)
-        fetched.distributions[1] += evaluate_lobe(next, halfway.second);
+        add_lobe_to_light(fetched, next, 1u, halfway.second);
     if (LIGHTS_AT_ONCE > 2u)
-        fetched.distributions[2] += evaluate_lobe(next, halfway.third);
+        add_lobe_to_light(fetched, next, 2u, halfway.third);
     if (LIGHTS_AT_ONCE > 3u)
-        fetched.distributions[3] += evaluate_lobe(next, halfway.fourth);
+        add_lobe_to_light(fetched, next, 3u, halfway.fourth);
 }
 
 void gather_lights(inout appearance fetched, surface_point surface, vec3 incoming[4]) {
@@ -361,7 +390,7 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
                                                 mixture_half_vector(fetched, surface, incoming[1]),
                                                 mixture_half_vector(fetched, surface, incoming[2]),
                                                 mixture_half_vector(fetched, surface, incoming[3]));
-    fetched.distributions = vec4(0.0);
+    fetched.distributions = fetched.broad_distributions = vec4(0.0);
     fetched.lobe_count = !base_in_walk() && fetched.base_share > 0.0 ? float(LOBE_COUNT) : 0.0;
     walk at = start_walk(fetched);
     if (SUBDIVISION == 0u && !walks_base()) {
@@ -396,7 +425,7 @@ void enter_mixture(inout appearance fetched, surface_point surface) {
     fetched.mixture_scale = (1.0 - fetched.base_share) / weight;
     fetched.complements = vec2(mean.w);
     if (WIDTHS > 1)
-        take_widths(fetched, weight);
+        take_widths(fetched, coverage, weight);
     fetch_cluster_widths(fetched);
     // A distribution of normals is normalised to projected area one, a lobe to area one.
     fetched.lobe_scales = vec2(fetched.mixture_scale);
@@ -453,18 +482,35 @@ vec3 reflecting_normal(appearance fetched, vec3 halfway) {
     return sum * inversesqrt(max(dot(sum, sum), 1e-30));
 }
 
-vec3 evaluate_footprint_microfacets(appearance fetched, float distribution, vec3 halfway,
-                                    vec3 outgoing, vec3 incoming) {
+// F0 of what reflects about a half vector, over that of the footprint, where `mixture` is the
+// mixture's distribution there, `broad` the second width's part of it, and `base` that of level 0.
+vec3 reflecting_tint(appearance fetched, float mixture, float broad, float base) {
+    vec3 sum = (mixture - broad) * fetched.width_tints[0] + broad * fetched.width_tints[1] + base;
+    return sum / max(mixture + base, 1e-20);
+}
+
+vec3 evaluate_footprint_microfacets(appearance fetched, uint light, vec3 halfway, vec3 outgoing,
+                                    vec3 incoming) {
+    float mixture = fetched.distributions[light], base = 0.0;
     base_material frame = fetched.filtered;
     frame.normal = reflecting_normal(fetched, halfway);
     if (may_see_level_0(lobe_map())) {
         float width = widened_width(fetched.base);
         frame.width = mix(frame.width, width, fetched.base_share);
-        distribution += fetched.base_share *
-                        evaluate_normal_distribution(fetched.base.normal, halfway, width);
+        base = fetched.base_share *
+               evaluate_normal_distribution(fetched.base.normal, halfway, width);
     }
-    return evaluate_microfacets(frame, fetched.diffuse_normal, distribution, halfway, outgoing,
-                                incoming);
+    if (!WIDTH_COLOURS)
+        return evaluate_microfacets(frame, fetched.diffuse_normal, mixture + base, halfway,
+                                    outgoing, incoming);
+    // Lambert's part is below the footprint's F0.
+    vec3 diffuse =
+        evaluate_microfacets(frame, fetched.diffuse_normal, 0.0, halfway, outgoing, incoming);
+    frame.diffuse = vec3(0.0);
+    frame.specular *=
+        reflecting_tint(fetched, mixture, fetched.broad_distributions[light], base);
+    return diffuse + evaluate_microfacets(frame, frame.normal, mixture + base, halfway, outgoing,
+                                          incoming);
 }
 
 vec3 evaluate_footprint_lobes(appearance fetched, float distribution, vec3 halfway, vec3 incoming) {
@@ -484,11 +530,11 @@ vec3 evaluate_appearance(appearance fetched, surface_point surface, vec3 incomin
     if (incoming.z <= 0.0)
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, surface.outgoing);
-    float distribution = fetched.distributions[light];
     return MODEL == MODEL_MICROFACET
-               ? evaluate_footprint_microfacets(fetched, distribution, halfway, surface.outgoing,
+               ? evaluate_footprint_microfacets(fetched, light, halfway, surface.outgoing,
                                                 incoming)
-               : evaluate_footprint_lobes(fetched, distribution, halfway, incoming);
+               : evaluate_footprint_lobes(fetched, fetched.distributions[light], halfway,
+                                          incoming);
 }
 
 #ifdef ENVIRONMENT
@@ -506,6 +552,8 @@ vec3 reflect_width(appearance fetched, surface_point surface, lobe one, int widt
     if (WIDTHS > 1)
         frame.width = base_lobe_of_concentration(
             DISTRIBUTION, concentration_from_complement(fetched.complements[width]));
+    if (WIDTH_COLOURS)
+        frame.specular *= fetched.width_tints[width];
     if (keeps_shape()) {
         round = base_half_vectors(axis, one.parameter[width], surface.outgoing);
         mass += one.own_weight[width];

@@ -15,10 +15,14 @@
 // Then, where needed:
 // [MEAN_LAYER]  (mean normal of all texels, mean of 1 - |r| over the base lobes)
 // [KEPT_LAYER]  coverage, where the weights that [0] has are of what texels mirror
-// [WIDTH_LAYER] where shading takes two widths: sums of u, u^2, u^3 (lib/lobe/width_pair.glsl)
+// [WIDTH_LAYER] where shading takes two widths: sums of u, u^2, u^3 (lib/lobe/width_pair.glsl), and
+//               of u over texels, whatever they mirror, where these have colours of their own
 // [+ 1]         where the subdivision is 1 or more: sums of 1 - |r| over the base lobes in each
 //               sector or, where it is 2, in the first four halves
 // [+ 2]         where it is 2: in the other four
+// [then]        where the two widths have colours of their own: sums of r, b, r u, b u over texels,
+//               r and b the first and last channel of mirrored_colour less its luminance, which the
+//               weights have (maps/mirrored_luminance.glsl)
 #define MIXTURE_LAYER_ONE     0
 #define MIXTURE_LAYER_SECTORS 1
 #define MIXTURE_LAYER_HALVES  5
@@ -30,10 +34,11 @@
 #define SPECIALISE_THRESHOLD   (SPECIALISE_FILTER + 4) // uint, THRESHOLD_...
 #define SPECIALISE_CLUSTERS    (SPECIALISE_FILTER + 5) // uint, CLUSTERS_...
 // bool: the base lobes' colours differ in brightness only, so that one mixture serves them all
-#define SPECIALISE_ONE_HUE     (SPECIALISE_FILTER + 6)
-#define SPECIALISE_WEIGHTED    (SPECIALISE_FILTER + 7) // bool, texels count by what they mirror
-#define SPECIALISE_KEPT_LAYER  (SPECIALISE_FILTER + 8) // uint, layer of the coverage; 0: none
-#define SPECIALISE_WIDTH_LAYER (SPECIALISE_FILTER + 9) // uint, first layer of widths; 0: none
+#define SPECIALISE_ONE_HUE       (SPECIALISE_FILTER + 6)
+#define SPECIALISE_WEIGHTED      (SPECIALISE_FILTER + 7)  // bool, texels count by what they mirror
+#define SPECIALISE_KEPT_LAYER    (SPECIALISE_FILTER + 8)  // uint, layer of the coverage; 0: none
+#define SPECIALISE_WIDTH_LAYER   (SPECIALISE_FILTER + 9)  // uint, first layer of widths; 0: none
+#define SPECIALISE_WIDTH_COLOURS (SPECIALISE_FILTER + 38) // bool: there is a layer of their colours
 
 // Numbers of the filter's knobs (see knobs.h).
 struct lobes_knobs {

@@ -69,13 +69,14 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     mixture_map mixture = {.format = passes_filtered_map_format(context),
                            .subdivision = request->subdivision,
                            .space = space,
-                           .weighted = passes_mirrored_luminance_varies(material)};
+                           .weighted = passes_mirrored_luminance_varies(material),
+                           .width_colours = request->width_colours};
     uint32_t layers = layers_of(request->subdivision);
     mixture.mean_layer = request->mean ? layers++ : 0;
     if (mixture.weighted && (space != LOBE_SPACE_TANGENT || passes_lobes_are_masked(material)))
         mixture.kept_layer = layers++;
     mixture.width_layer = request->widths ? layers : 0;
-    layers += request->widths ? 1 + request->subdivision : 0;
+    layers += request->widths ? 1 + request->subdivision + request->width_colours : 0;
     char name[64];
     if (space == LOBE_SPACE_TANGENT)
         snprintf(name, sizeof name, "mixture of material %u", drawn->material);
@@ -102,6 +103,7 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     passes_specialise(&list, SPECIALISE_WEIGHTED, mixture.weighted);
     passes_specialise(&list, SPECIALISE_KEPT_LAYER, mixture.kept_layer);
     passes_specialise(&list, SPECIALISE_WIDTH_LAYER, mixture.width_layer);
+    passes_specialise(&list, SPECIALISE_WIDTH_COLOURS, mixture.width_colours);
     const struct lobe_grid_constants tangent_constants =
         passes_lobe_grid_constants(context, material);
     struct atlas_constants atlas_constants = {.width = grid.width,

@@ -14,6 +14,7 @@ typedef struct mixture_map {
     bool weighted;        ///< texels count by what they mirror
     uint32_t kept_layer;  ///< layer of the coverage, where the weights are not that; 0: none
     uint32_t width_layer; ///< the first of those of the widths of base lobes; 0: none
+    bool width_colours;   ///< the last of these is of their colours
 } mixture_map;
 
 /// What is wanted of a mixture map.
@@ -23,6 +24,7 @@ typedef struct mixture_request {
     uint32_t clusters;    ///< CLUSTERS_... of shaders/interface/cluster.h
     bool mean;            ///< also the layer of the mean
     bool widths;          ///< also those of widths
+    bool width_colours;   ///< also that of their colours; for mixtures that are weighted
 } mixture_request;
 
 /// Declares a mixture map for an instance's material and adds the passes that fill level 0:

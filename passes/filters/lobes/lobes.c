@@ -1,9 +1,12 @@
 #include <math.h>
+#include <string.h>
 
 #include "passes/context/filter.h"
 #include "passes/context/knob_values.h"
 #include "passes/filters/lobes/clustering.h"
 #include "passes/filters/lobes/subdivision_choice.h"
+#include "passes/filters/lobes/width_colours.h"
+#include "passes/maps/colours/mirrored_luminance.h"
 #include "passes/maps/filtered_maps.h"
 #include "passes/maps/lobe_map.h"
 #include "passes/maps/tile_knobs.h"
@@ -137,7 +140,11 @@ static bool for_each_instance(const filter_context *context, size_t instance) {
 
 /// What is kept for a material between frames.
 typedef struct prepared_lobes {
+    bool has_subdivision;
     uint32_t subdivision; ///< in tangent space
+    bool has_width_colours;
+    bool width_colours;             ///< sharp and broad lobes differ in colour
+    float base_colour[3], metallic; ///< for which that was found
 } prepared_lobes;
 
 /// Whether, in tangent space, all lobes point along the normal because no map tilts it: one cluster
@@ -171,6 +178,11 @@ static bool needs_widths(const filter_context *context, const device_material *m
            passes_knob_choice(context, &widths_knob) == 0;
 }
 
+static bool widths_may_have_colours(const filter_context *context,
+                                    const device_material *material) {
+    return needs_widths(context, material) && passes_mirrored_luminance_varies(material);
+}
+
 static uint32_t choose_subdivision(const filter_context *context, const device_material *material) {
     const subdivision_request request = {
         .clusters = passes_knob_choice(context, &clusters_knob),
@@ -184,15 +196,35 @@ static uint32_t choose_subdivision(const filter_context *context, const device_m
     return passes_subdivision_choose(context->scene, material, &request);
 }
 
+/// Whether the material still has the factors that the answer depends on.
+static bool has_factors(const prepared_lobes *prepared, const device_material *material) {
+    return prepared->metallic == material->metallic &&
+           memcmp(prepared->base_colour, material->material->base_colour,
+                  sizeof prepared->base_colour) == 0;
+}
+
+static void find_width_colours(const filter_context *context, const device_material *material,
+                               prepared_lobes *prepared) {
+    prepared->has_width_colours = true;
+    prepared->width_colours = passes_widths_have_colours(context->scene, material);
+    memcpy(prepared->base_colour, material->material->base_colour, sizeof prepared->base_colour);
+    prepared->metallic = material->metallic;
+}
+
 static lobe_result prepare(const filter_context *context, uint32_t index, void **slot) {
-    if (*slot || !needs_subdivision(context, index))
-        return LOBE_OK;
-    prepared_lobes *prepared =
-        lobe_allocate(lobe_host_allocator(context->host), 1, sizeof *prepared);
+    const device_material *material = &context->scene->materials[index];
+    const bool subdivided = needs_subdivision(context, index),
+               coloured = widths_may_have_colours(context, material);
+    if (!*slot && (subdivided || coloured))
+        *slot = lobe_allocate(lobe_host_allocator(context->host), 1, sizeof(prepared_lobes));
+    prepared_lobes *prepared = *slot;
     if (!prepared)
-        return LOBE_ERROR_OUT_OF_MEMORY;
-    prepared->subdivision = choose_subdivision(context, &context->scene->materials[index]);
-    *slot = prepared;
+        return subdivided || coloured ? LOBE_ERROR_OUT_OF_MEMORY : LOBE_OK;
+    if (subdivided && !prepared->has_subdivision)
+        prepared->subdivision = choose_subdivision(context, material);
+    prepared->has_subdivision |= subdivided;
+    if (coloured && !(prepared->has_width_colours && has_factors(prepared, material)))
+        find_width_colours(context, material, prepared);
     return LOBE_OK;
 }
 
@@ -205,7 +237,9 @@ static uint32_t subdivision_of(const filter_context *context, const device_mater
     uint32_t choice = passes_knob_choice(context, &subdivision_knob);
     if (choice > 0)
         return choice - 1;
-    return space == LOBE_SPACE_TANGENT && prepared ? prepared->subdivision : 2;
+    return space == LOBE_SPACE_TANGENT && prepared && prepared->has_subdivision
+               ? prepared->subdivision
+               : 2;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -278,6 +312,7 @@ static void specialise_mixture(const lobe_material *material, const mixture_map 
     passes_appearance_specialise(appearance, SPECIALISE_WEIGHTED, mixture->weighted);
     passes_appearance_specialise(appearance, SPECIALISE_KEPT_LAYER, mixture->kept_layer);
     passes_appearance_specialise(appearance, SPECIALISE_WIDTH_LAYER, mixture->width_layer);
+    passes_appearance_specialise(appearance, SPECIALISE_WIDTH_COLOURS, mixture->width_colours);
     passes_appearance_specialise(appearance, SPECIALISE_SPACE,
                                  mixture->space == LOBE_SPACE_CAMERA   ? SPACE_CAMERA
                                  : mixture->space == LOBE_SPACE_OBJECT ? SPACE_OBJECT
@@ -296,6 +331,8 @@ static mixture_map build_mixture(const filter_context *context, size_t instance,
         .clusters = passes_knob_choice(context, &clusters_knob),
         .mean = needs_mean(context, material, subdivision) || needs_widths(context, material),
         .widths = needs_widths(context, material),
+        .width_colours =
+            widths_may_have_colours(context, material) && prepared && prepared->width_colours,
     };
     mixture_map mixture = passes_lobe_clustering(context, instance, &request);
     passes_level_reduction(context->graph, &mixture.map);

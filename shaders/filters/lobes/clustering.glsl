@@ -23,6 +23,7 @@ layout(constant_id = SPECIALISE_MEAN_LAYER) const uint MEAN_LAYER = 0;
 layout(constant_id = SPECIALISE_WEIGHTED) const bool WEIGHTED = false;
 layout(constant_id = SPECIALISE_KEPT_LAYER) const uint KEPT_LAYER = 0;
 layout(constant_id = SPECIALISE_WIDTH_LAYER) const uint WIDTH_LAYER = 0;
+layout(constant_id = SPECIALISE_WIDTH_COLOURS) const bool WIDTH_COLOURS = false;
 layout(constant_id = SPECIALISE_CLUSTERS) const uint CLUSTERS = CLUSTERS_TURNED;
 
 layout(set = 0, binding = 16) uniform writeonly image2DArray mixture_map;
@@ -31,8 +32,9 @@ struct cluster_sums {
     vec4 halves[8]; // finest clusters; only the first where SUBDIVISION is 0
     vec4 mean;      // normal, and 1 - |r| of the base lobes
     float kept;     // coverage
-    vec3 widths;    // of the base lobes
+    vec4 widths;    // of the base lobes; the last over texels
     vec4 complements[2]; // of those in each of the finest clusters
+    vec4 colours;   // see interface/mixture.h
 };
 
 cluster_sums no_lobes() {
@@ -41,8 +43,9 @@ cluster_sums no_lobes() {
         sums.halves[i] = vec4(0.0);
     sums.mean = vec4(0.0);
     sums.kept = 0.0;
-    sums.widths = vec3(0.0);
+    sums.widths = vec4(0.0);
     sums.complements[0] = sums.complements[1] = vec4(0.0);
+    sums.colours = vec4(0.0);
     return sums;
 }
 
@@ -60,7 +63,7 @@ void add_lobe(inout cluster_sums sums, vec3 axis, float complement, float weight
     }
     sums.mean.w += weight * complement;
     if (WIDTH_LAYER != 0u)
-        sums.widths += weight * width_powers(complement);
+        sums.widths.xyz += weight * width_powers(complement);
 }
 
 // 1 - |r| of each base lobe. If widths do not vary, it is constant over the dispatch, and the
@@ -82,10 +85,19 @@ void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture
             base_complements(width_at(point), complements);
         sums.mean.xyz += weight * (to_mixture * normal);
         sums.kept += weight;
-        if (WEIGHTED)
-            weight *= mirrored_luminance(point, has_map(MAP_BASE_COLOUR)
-                                                    ? base_texel(base_colour_map, point).rgb
-                                                    : vec3(1.0));
+        if (WEIGHTED) {
+            vec3 mirrored = mirrored_colour(point, has_map(MAP_BASE_COLOUR)
+                                                       ? base_texel(base_colour_map, point).rgb
+                                                       : vec3(1.0));
+            float luminance = lobe_luminance(mirrored);
+            if (WIDTH_COLOURS) {
+                vec2 chroma = mirrored.rb - luminance;
+                float u = width_powers(complements[0]).x;
+                sums.colours += weight * vec4(chroma, u * chroma);
+                sums.widths.w += weight * u;
+            }
+            weight *= luminance;
+        }
         for (int i = 0; i < LOBE_COUNT; ++i) {
             vec3 axis = MODEL == MODEL_MICROFACET
                             ? normal
@@ -101,7 +113,7 @@ void store_layer(ivec2 position, int layer, vec4 value) {
 }
 
 void store_widths(ivec2 position, cluster_sums sums) {
-    store_layer(position, int(WIDTH_LAYER), vec4(sums.widths, 0.0));
+    store_layer(position, int(WIDTH_LAYER), sums.widths);
     vec4 first = sums.complements[0], second = sums.complements[1];
     if (SUBDIVISION == 1u)
         first = vec4(first.xz + first.yw, second.xz + second.yw);
@@ -109,6 +121,8 @@ void store_widths(ivec2 position, cluster_sums sums) {
         store_layer(position, int(WIDTH_LAYER) + 1, first);
     if (SUBDIVISION >= 2u)
         store_layer(position, int(WIDTH_LAYER) + 2, second);
+    if (WIDTH_COLOURS)
+        store_layer(position, int(WIDTH_LAYER + 1u + SUBDIVISION), sums.colours);
 }
 
 void store_clusters(ivec2 position, cluster_sums sums) {

@@ -9,6 +9,7 @@
 struct width_pair {
     vec2 complements; // 1 - |r|, that of the sharper lobe first
     vec2 parts;       // add up to 1
+    float distance;   // of both in u
 };
 
 vec3 width_powers(float complement) {
@@ -28,7 +29,16 @@ width_pair width_pair_of(vec3 powers) {
     float root = sqrt(skewness * skewness + 4.0);
     vec2 u = mean + 0.5 * deviation * vec2(skewness - root, skewness + root);
     float sharp = 0.5 + 0.5 * skewness / root;
-    return width_pair(min(exp(5.0 * (u - 1.0)), 1.0), vec2(sharp, 1.0 - sharp));
+    return width_pair(min(exp(5.0 * (u - 1.0)), 1.0), vec2(sharp, 1.0 - sharp), deviation * root);
+}
+
+// How much of a quantity that many lobes add up to, such as colour, the broad lobe has [0, 1], if
+// both have its sum and that of its products with u. `mean`: of u; `sum` and `products`: with
+// weights that add up to 1.
+vec3 broad_share(width_pair pair, float mean, vec3 sum, vec3 products) {
+    vec3 covariance = products - mean * sum;
+    float distance = max(pair.distance, 2.0 * LEAST_WIDTH_DEVIATION);
+    return clamp(pair.parts.y + covariance / (distance * max(sum, vec3(1e-6))), 0.0, 1.0);
 }
 
 #endif
