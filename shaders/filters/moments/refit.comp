@@ -188,23 +188,34 @@ struct bin_likelihoods {
     float most, sum; // the sum of all is sum exp(most)
 };
 
-float likelihood_of(vec4 lobe, uint index, uint first, uint count) {
-    return index < count ? bin_likelihood(bins[first + index], lobe.xy, lobe.z) : -1e30;
+// What likelihoods take of bins. All of them, for loops that the compiler unrolls: what is indexed
+// otherwise, and what is shared, lavapipe reads thread by thread.
+struct bin_shapes {
+    vec4 centre[MOMENT_MAXIMUM_BINS];
+    vec4 shape[MOMENT_MAXIMUM_BINS];
+};
+
+bin_shapes shapes_from(uint first) {
+    bin_shapes shapes;
+    for (uint i = 0; i < MOMENT_MAXIMUM_BINS; ++i) {
+        shapes.centre[i] = bins[first + i].centre;
+        shapes.shape[i] = bins[first + i].shape;
+    }
+    return shapes;
 }
 
-// Of the bins from the first one on. In threes, for fewer iterations.
-bin_likelihoods likelihoods_of(vec4 lobe, uint index, uint first, uint count) {
+// `index`: of the one.
+bin_likelihoods likelihoods_of(vec4 lobe, uint index, bin_shapes shapes, uint count) {
     bin_likelihoods result = bin_likelihoods(0.0, -1e30, 0.0);
-    for (uint i = 0; i < count; i += 3) {
-        vec3 values = vec3(likelihood_of(lobe, i, first, count),
-                           likelihood_of(lobe, i + 1, first, count),
-                           likelihood_of(lobe, i + 2, first, count));
-        float most = max(max(values.x, values.y), max(values.z, result.most));
-        result.sum = result.sum * exp(result.most - most) + dot(exp(values - most), vec3(1.0));
-        result.most = most;
-        if (index >= i && index < i + 3)
-            result.own = values[index - i];
+    float values[MOMENT_MAXIMUM_BINS];
+    for (uint i = 0; i < MOMENT_MAXIMUM_BINS; ++i) {
+        moment_bin bin = moment_bin(shapes.centre[i], shapes.shape[i], vec4(0.0));
+        values[i] = i < count ? bin_likelihood(bin, lobe.xy, lobe.z) : -1e30;
+        result.most = max(result.most, values[i]);
+        result.own = i == index ? values[i] : result.own;
     }
+    for (uint i = 0; i < MOMENT_MAXIMUM_BINS; ++i)
+        result.sum += exp(values[i] - result.most);
     return result;
 }
 
@@ -331,19 +342,21 @@ void visit(uint index, progress at, plane_range range) {
     vec4 sums = vec4(0.0), moments = vec4(0.0), largest = vec4(0.0, 0.0, 0.0, -1e30);
     float worst = -1e30, worst_lobe = 0.0, overlap = 0.0;
     vec2 centre = origin_of(index, at);
+    vec3 covariance = gaussians[index].xyz;
+    bin_shapes shapes = shapes_from(0), old_shapes = shapes_from(OLD_BINS);
     uint corners = PARTITION == PARTITION_FITTED ? 8 : 0;
     for (uint n = thread(); n < constants.lobes + corners; n += THREADS) {
         vec4 lobe = n < constants.lobes ? lobes[n] : corner_of(range, n - constants.lobes);
-        bin_likelihoods all = likelihoods_of(lobe, index, 0, at.count);
+        bin_likelihoods all = likelihoods_of(lobe, index, shapes, at.count);
         float member = member_of(all);
         if (at.old > 0.0) {
-            bin_likelihoods old = likelihoods_of(lobe, index, OLD_BINS, at.count);
+            bin_likelihoods old = likelihoods_of(lobe, index, old_shapes, at.count);
             member = mix(member, member_of(old), at.old);
         }
         if (sorts(at))
             member = sorted_bin(lobe, at) == index ? 1.0 : 0.0;
         vec2 d = lobe.xy - centre;
-        overlap += lobe.w * evaluate_gaussian(d, gaussians[index].xyz + vec3(lobe.zz, 0.0));
+        overlap += lobe.w * evaluate_gaussian(d, covariance + vec3(lobe.zz, 0.0));
         float weight = member * lobe.w, total = all.most + log(all.sum);
         float lack = lobe.w * (at.likelihood - total);
         sums += weight * vec4(1.0, d, lobe.z);
@@ -580,7 +593,7 @@ float score_of(progress at, float total) {
 // About those of a thread's loops in a round.
 uint iterations_of_round(uint count) {
     uint lobes = constants.lobes / THREADS + 2;
-    return count * (lobes * (1 + (count + 2) / 3) + 30 + count);
+    return count * (lobes + 30 + count);
 }
 
 // ---------------------------------------------------------------------------------------------
