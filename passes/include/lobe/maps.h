@@ -85,10 +85,10 @@ typedef struct lobe_material_maps {
 
 /// What was recorded last; valid until the next recording. Handles and constants then stay the same
 /// unless an update listed a material, or changed an image's extent or format. Where only texels
-/// change, neither descriptors nor pipelines need be made anew, with one
-/// exception: constants become others, once, where metal that was the same in all texels of a map
-/// in host memory begins to vary.
-/// LOBE_ERROR_INVALID_ARGUMENT: nothing has been recorded, or there is no such material.
+/// change, neither descriptors nor pipelines need be made anew, with two exceptions, both for maps
+/// in host memory: constants become others, once, where metal that was the same in all texels
+/// begins to vary; and constants and descriptors do, once, where a mask that kept all texels begins
+/// to cut. LOBE_ERROR_INVALID_ARGUMENT: nothing has been recorded, or there is no such material.
 LOBE_API lobe_result lobe_maps_get(const lobe_maps *maps, uint32_t material,
                                    lobe_material_maps *result);
 
