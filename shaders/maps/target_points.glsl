@@ -25,19 +25,27 @@ target_points points_under(ivec2 position, ivec2 size) {
                          box_weights(size.x, position.x), box_weights(size.y, position.y));
 }
 
-int count_of(target_points points) {
-    return points.taps.x * points.taps.y * POINTS;
+int texel_count(target_points points) {
+    return points.taps.x * points.taps.y;
 }
 
-// `index`: less than count_of(points); row by row, all points of a texel one after the other.
-target_point point_of(target_points points, int index) {
-    int texel = index / POINTS;
+// The column and row of a texel, which are numbered row by row.
+ivec2 texel_of(target_points points, int texel) {
     // Without a division, of which lavapipe makes one for each invocation.
     int row = int(texel >= points.taps.x) + int(texel >= 2 * points.taps.x);
-    int column = texel - row * points.taps.x;
-    float weight = points.row_weights[row] * points.column_weights[column] / float(POINTS);
-    return target_point(map_point(points.first + ivec2(column, row), index % POINTS, points.size),
-                        weight, index);
+    return ivec2(texel - row * points.taps.x, row);
+}
+
+int count_of(target_points points) {
+    return texel_count(points) * POINTS;
+}
+
+// `index`: less than count_of(points); all points of a texel one after the other.
+target_point point_of(target_points points, int index) {
+    ivec2 texel = texel_of(points, index / POINTS);
+    float weight = points.row_weights[texel.y] * points.column_weights[texel.x] / float(POINTS);
+    return target_point(map_point(points.first + texel, index % POINTS, points.size), weight,
+                        index);
 }
 
 #endif

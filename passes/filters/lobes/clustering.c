@@ -106,6 +106,9 @@ mixture_map passes_lobe_clustering(const filter_context *context, size_t instanc
     passes_specialise(&list, SPECIALISE_WIDTH_COLOURS, mixture.width_colours);
     const struct lobe_grid_constants tangent_constants =
         passes_lobe_grid_constants(context, material);
+    if (mixture.weighted)
+        passes_colour_square_specialise(material, &tangent_constants,
+                                        passes_base_maps_are_interpolated(material), &list);
     struct atlas_constants atlas_constants = {.width = grid.width,
                                               .height = grid.height,
                                               .alpha = tangent_constants.alpha,

@@ -17,19 +17,15 @@ void main() {
     ivec2 position;
     if (!find_target_texel(constants.level, imageSize(mixture_map).xy, position))
         return;
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
     cluster_sums sums = no_lobes();
     float complements[MATERIAL_MAXIMUM_LOBES];
     if (!has_map(MAP_WIDTH))
         base_complements(material.width_factor, complements);
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            float weight = row_weights[y] * column_weights[x];
-            add_texel(sums, 2 * position + ivec2(x, y), size, mat3(1.0),
-                      vec2(constants.alpha, constants.cutoff), complements, weight);
-        }
-    }
+    if (WEIGHTED)
+        read_colours(points);
+    for (int i = 0; i < count_of(points); ++i)
+        add_point(sums, point_of(points, i), mat3(1.0), vec2(constants.alpha, constants.cutoff),
+                  complements);
     store_clusters(position, sums);
 }

@@ -12,7 +12,7 @@
 #include "maps/base_maps.glsl"
 #include "maps/mirrored_luminance.glsl"
 #include "interface/mixture.h"
-#include "lib/map/box_reduction.glsl"
+#include "maps/colour_square.glsl"
 #include "lib/lobe/half_vector_lobe.glsl"
 #include "lib/lobe/lobe_cluster.glsl"
 #include "lib/lobe/von_mises_fisher.glsl"
@@ -73,38 +73,36 @@ void base_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]
         complements[i] = mean_resultant_complement(base_concentration(i, width));
 }
 
-// Adds what a texel of weight `texel_weight` holds. `to_mixture`: from the tangent frame to the
-// space of the mixtures; `mask`: its factor of alpha and its cutoff.
-void add_texel(inout cluster_sums sums, ivec2 texel, ivec2 size, mat3 to_mixture, vec2 mask,
-               inout float complements[MATERIAL_MAXIMUM_LOBES], float texel_weight) {
-    for (int index = 0; index < POINTS; ++index) {
-        vec2 point = map_point(texel, index, size);
-        float weight = texel_weight / float(POINTS) * weight_of_point(point, mask.x, mask.y);
-        vec3 normal = normal_at(point, mask.x, mask.y);
-        if (has_map(MAP_WIDTH))
-            base_complements(width_at(point), complements);
-        sums.mean.xyz += weight * (to_mixture * normal);
-        sums.kept += weight;
-        if (WEIGHTED) {
-            vec3 mirrored = mirrored_colour(point, has_map(MAP_BASE_COLOUR)
-                                                       ? base_texel(base_colour_map, point).rgb
-                                                       : vec3(1.0));
-            float luminance = lobe_luminance(mirrored);
-            if (WIDTH_COLOURS) {
-                vec2 chroma = mirrored.rb - luminance;
-                float u = width_powers(complements[0]).x;
-                sums.colours += weight * vec4(chroma, u * chroma);
-                sums.widths.w += weight * u;
-            }
-            weight *= luminance;
+// `to_mixture`: from the tangent frame to the space of the mixtures; `mask`: its factor of alpha and
+// its cutoff.
+void add_point(inout cluster_sums sums, target_point target, mat3 to_mixture, vec2 mask,
+               inout float complements[MATERIAL_MAXIMUM_LOBES]) {
+    vec2 point = target.place;
+    float weight = target.weight * weight_of_point(point, mask.x, mask.y);
+    vec3 normal = normal_at(point, mask.x, mask.y);
+    if (has_map(MAP_WIDTH))
+        base_complements(width_at(point), complements);
+    sums.mean.xyz += weight * (to_mixture * normal);
+    sums.kept += weight;
+    if (WEIGHTED) {
+        vec3 mirrored = mirrored_colour(point, has_map(MAP_BASE_COLOUR)
+                                                   ? base_colour_at(target).rgb
+                                                   : vec3(1.0));
+        float luminance = lobe_luminance(mirrored);
+        if (WIDTH_COLOURS) {
+            vec2 chroma = mirrored.rb - luminance;
+            float u = width_powers(complements[0]).x;
+            sums.colours += weight * vec4(chroma, u * chroma);
+            sums.widths.w += weight * u;
         }
-        for (int i = 0; i < LOBE_COUNT; ++i) {
-            vec3 axis = MODEL == MODEL_MICROFACET
-                            ? normal
-                            : rotate_from_pole(normal, material.lobe_direction[i].xyz);
-            float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
-            add_lobe(sums, to_mixture * axis, complements[i], weight * share);
-        }
+        weight *= luminance;
+    }
+    for (int i = 0; i < LOBE_COUNT; ++i) {
+        vec3 axis = MODEL == MODEL_MICROFACET
+                        ? normal
+                        : rotate_from_pole(normal, material.lobe_direction[i].xyz);
+        float share = MODEL == MODEL_MICROFACET ? 1.0 : material.lobe_colour[i].w;
+        add_lobe(sums, to_mixture * axis, complements[i], weight * share);
     }
 }
 

@@ -32,27 +32,25 @@ void main() {
     ivec2 position = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(position, imageSize(mixture_map).xy)))
         return;
-    ivec2 size = ivec2(constants.width, constants.height);
-    vec3 column_weights = box_weights(size.x, position.x);
-    vec3 row_weights = box_weights(size.y, position.y);
+    target_points points = points_under(position, ivec2(constants.width, constants.height));
     cluster_sums sums = no_lobes();
     float complements[MATERIAL_MAXIMUM_LOBES];
     if (!has_map(MAP_WIDTH))
         base_complements(material.width_factor, complements);
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            ivec2 texel = 2 * position + ivec2(x, y);
-            vec4 surface_normal = texelFetch(atlas_normal, texel, 0);
-            if (surface_normal.w == 0.0 || faces_away(surface_normal.xyz, texel))
-                continue;
-            vec4 tangent = texelFetch(atlas_tangent, texel, 0);
-            vec3 bitangent = tangent.w * cross(surface_normal.xyz, tangent.xyz);
-            mat3 from_tangent = mat3(tangent.xyz, bitangent, surface_normal.xyz);
-            mat3 to_mixture = rotation() * from_tangent;
-            float weight = row_weights[y] * column_weights[x];
-            add_texel(sums, texel, size, to_mixture, vec2(constants.alpha, constants.cutoff),
-                      complements, weight);
-        }
+    if (WEIGHTED)
+        read_colours(points);
+    for (int i = 0; i < texel_count(points); ++i) {
+        ivec2 texel = points.first + texel_of(points, i);
+        vec4 surface_normal = texelFetch(atlas_normal, texel, 0);
+        if (surface_normal.w == 0.0 || faces_away(surface_normal.xyz, texel))
+            continue;
+        vec4 tangent = texelFetch(atlas_tangent, texel, 0);
+        vec3 bitangent = tangent.w * cross(surface_normal.xyz, tangent.xyz);
+        mat3 from_tangent = mat3(tangent.xyz, bitangent, surface_normal.xyz);
+        mat3 to_mixture = rotation() * from_tangent;
+        for (int point = 0; point < POINTS; ++point)
+            add_point(sums, point_of(points, i * POINTS + point), to_mixture,
+                      vec2(constants.alpha, constants.cutoff), complements);
     }
     store_clusters(position, sums);
 }
