@@ -27,7 +27,7 @@
 #define SPECIALISE_BRIGHT_TEXELS (SPECIALISE_FILTER + 24)
 #define SPECIALISE_SINGLE_TEXELS (SPECIALISE_FILTER + 29) // uint, SINGLE_TEXELS_...
 // bool: in bins with colours, lobes count by what they mirror (of `moments`)
-#define SPECIALISE_MIRRORED_BINS (SPECIALISE_FILTER + 30)
+#define SPECIALISE_MIRRORED_BINS (SPECIALISE_FILTER + 41)
 
 // Which texels' bins are evaluated one by one, not blended with those of texels around.
 #define SINGLE_TEXELS_NEVER  0
