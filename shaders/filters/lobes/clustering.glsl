@@ -73,8 +73,8 @@ void base_complements(float width, out float complements[MATERIAL_MAXIMUM_LOBES]
         complements[i] = mean_resultant_complement(base_concentration(i, width));
 }
 
-// `to_mixture`: from the tangent frame to the space of the mixtures; `mask`: its factor of alpha and
-// its cutoff.
+// `to_mixture`: from the tangent frame to the space of the mixtures; `mask`: its factor of alpha
+// and its cutoff.
 void add_point(inout cluster_sums sums, target_point target, mat3 to_mixture, vec2 mask,
                inout float complements[MATERIAL_MAXIMUM_LOBES]) {
     vec2 point = target.place;
