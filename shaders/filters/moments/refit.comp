@@ -343,7 +343,9 @@ void visit(uint index, progress at, plane_range range) {
     float worst = -1e30, worst_lobe = 0.0, overlap = 0.0;
     vec2 centre = origin_of(index, at);
     vec3 covariance = gaussians[index].xyz;
-    bin_shapes shapes = shapes_from(0), old_shapes = shapes_from(OLD_BINS);
+    bin_shapes shapes = shapes_from(0), old_shapes = shapes;
+    if (at.old > 0.0)
+        old_shapes = shapes_from(OLD_BINS);
     uint corners = PARTITION == PARTITION_FITTED ? 8 : 0;
     for (uint n = thread(); n < constants.lobes + corners; n += THREADS) {
         vec4 lobe = n < constants.lobes ? lobes[n] : corner_of(range, n - constants.lobes);
