@@ -261,7 +261,7 @@ float base_complement_share(float complement, float base_complement) {
 // convolved with a Gaussian in the plane, of which the lobe then lacks 0.01 to 0.04 instead of
 // 0.02 to 0.14 (relative L2).
 float gaussian_widening(float own) {
-    return DISTRIBUTION == DISTRIBUTION_GGX ? 1.0 + 0.56 * sqrt(own) : 1.0;
+    return DISTRIBUTION == DISTRIBUTION_GGX ? 1.0 + GGX_WIDENING * sqrt(own) : 1.0;
 }
 
 // A cluster's lobe, about the base lobes of one width. `complement`: 1 - |r|; `share`: of the

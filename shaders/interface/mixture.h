@@ -27,6 +27,9 @@
 #define MIXTURE_LAYER_SECTORS 1
 #define MIXTURE_LAYER_HALVES  5
 
+// Of GGX about spread normals, see gaussian_widening in shaders/filters/lobes.glsl.
+#define GGX_WIDENING 0.56
+
 #define SPECIALISE_SUBDIVISION (SPECIALISE_FILTER + 0) // uint, [0, 2]: finest level stored
 #define SPECIALISE_COARSEST    (SPECIALISE_FILTER + 1) // uint, [0, 1]: coarsest that can suffice
 #define SPECIALISE_MEAN_LAYER  (SPECIALISE_FILTER + 2) // uint, layer of the mean; 0: none

@@ -142,7 +142,7 @@ static drawn_lobe make_lobe(const lobe_material *material, const cluster_shape *
         lobe.own_weight = own * weight;
         lobe.weight *= 1 - own;
         if (material->distribution == LOBE_DISTRIBUTION_GGX)
-            lobe.concentration /= 1 + 0.56 * sqrt(own);
+            lobe.concentration /= 1 + GGX_WIDENING * sqrt(own);
     }
     if (material->model == LOBE_MATERIAL_MICROFACET)
         lobe.weight /= passes_lobe_projected_area(passes_lobe_concentration(1 - base));

@@ -108,29 +108,34 @@ def test_own_shading_has_many_materials():
     draws_the_same("moments", "pillow", 64, 36)
 
 
-def test_own_shading_shows_parts_of_masks():
-    """Holes far smaller than pixels, of which as many are drawn as the mask keeps."""
-    document = gltf_triangle()
-    coordinates = struct.pack("<6f", -25, -25, 25, -25, 0, 25)
-    data = base64.b64encode(coordinates).decode()
-    document["buffers"].append({"byteLength": 24,
+def write_triangle(name, attribute, kind, values, **more):
+    """A triangle under a sun, whose three vertices have this attribute of a VEC2 or VEC4. Returns
+    the scene."""
+    document = gltf_triangle() | more
+    data = base64.b64encode(struct.pack(f"<{len(values)}f", *values)).decode()
+    document["buffers"].append({"byteLength": 4 * len(values),
                                 "uri": "data:application/octet-stream;base64," + data})
-    document["bufferViews"].append({"buffer": 1, "byteLength": 24})
+    document["bufferViews"].append({"buffer": 1, "byteLength": 4 * len(values)})
     document["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 3,
-                                  "type": "VEC2"})
-    png_draw(FOLDER / "holes.png", 4, 4,
-             lambda x, y: (200, 100, 50, 0 if x % 2 == 0 and y % 2 == 0 else 255))
-    document["images"] = [{"uri": "holes.png"}]
-    document["textures"] = [{"source": 0}]
-    document["materials"] = [{"alphaMode": "MASK",
-                              "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+                                  "type": kind})
     document["meshes"][0]["primitives"][0] |= {
-        "attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "material": 0}
+        "attributes": {"POSITION": 0, attribute: 2}, "material": 0}
     document["extensionsUsed"] = ["KHR_lights_punctual"]
     document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional"}]}}
     document["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
-    scene = FOLDER / "holes.gltf"
+    scene = FOLDER / name
     gltf_write(scene, document)
+    return scene
+
+
+def test_own_shading_shows_parts_of_masks():
+    """Holes far smaller than pixels, of which as many are drawn as the mask keeps."""
+    png_draw(FOLDER / "holes.png", 4, 4,
+             lambda x, y: (200, 100, 50, 0 if x % 2 == 0 and y % 2 == 0 else 255))
+    scene = write_triangle("holes.gltf", "TEXCOORD_0", "VEC2", (-25, -25, 25, -25, 0, 25),
+                           images=[{"uri": "holes.png"}], textures=[{"source": 0}],
+                           materials=[{"alphaMode": "MASK",
+                                       "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])
     draws_the_same("moments", scene, 96, 54)
     own, rendered = exr_texels(FOLDER / "own.exr"), exr_texels(FOLDER / "rendered.exr")
     check([texel[0] for texel in own] == [texel[0] for texel in rendered], "other pixels are kept")
@@ -138,22 +143,9 @@ def test_own_shading_shows_parts_of_masks():
 
 def test_own_shading_has_vertex_colours():
     """Two-sided, and cut off where their alpha falls below a half."""
-    document = gltf_triangle()
-    colours = struct.pack("<12f", 1, 0.2, 0.1, 1, 0.1, 1, 0.2, 1, 0.2, 0.1, 1, 0)
-    data = base64.b64encode(colours).decode()
-    document["buffers"].append({"byteLength": 48,
-                                "uri": "data:application/octet-stream;base64," + data})
-    document["bufferViews"].append({"buffer": 1, "byteLength": 48})
-    document["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 3,
-                                  "type": "VEC4"})
-    document["materials"] = [{"alphaMode": "MASK", "doubleSided": True}]
-    document["meshes"][0]["primitives"][0] |= {
-        "attributes": {"POSITION": 0, "COLOR_0": 2}, "material": 0}
-    document["extensionsUsed"] = ["KHR_lights_punctual"]
-    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional"}]}}
-    document["nodes"][0]["extensions"] = {"KHR_lights_punctual": {"light": 0}}
-    scene = FOLDER / "colours.gltf"
-    gltf_write(scene, document)
+    scene = write_triangle("colours.gltf", "COLOR_0", "VEC4",
+                           (1, 0.2, 0.1, 1, 0.1, 1, 0.2, 1, 0.2, 0.1, 1, 0),
+                           materials=[{"alphaMode": "MASK", "doubleSided": True}])
     draws_the_same("moments", scene, 96, 54)
 
 
