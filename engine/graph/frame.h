@@ -92,6 +92,8 @@ typedef struct engine_graph_command {
     size_t indirect_offset;             ///< bytes
     char *number;                       ///< dispatch: where in its constants, or NULL
     uint32_t source_access, target_access;
+    lobe_rectangle part;         ///< of a copy's source; no texels: all levels and layers
+    uint32_t target_x, target_y; ///< where that part goes
     float value[4];
     uint64_t read_back_offset, read_back_size; ///< bytes
     lobe_resource read_back;

@@ -18,17 +18,18 @@ static void count_access(lobe_pass *pass, const engine_dependency_access *access
     const lobe_graph *graph = pass->graph;
     const engine_graph_resource *resource = &graph->frame.resources[access->resource];
     const uint32_t first = graph->frame.dependencies.resources[access->resource].first_subresource;
+    // Of a copy's target, what it modifies is not read.
     const uint64_t directions = access->kind == ENGINE_ACCESS_READ ? COUNTED_READ
-                                : access->kind == ENGINE_ACCESS_WRITE
+                                : access->kind == ENGINE_ACCESS_WRITE || access->part_bytes
                                     ? COUNTED_WRITTEN
                                     : COUNTED_READ | COUNTED_WRITTEN;
     const uint64_t mine = ((uint64_t)pass->index + 1) << 2;
     for (uint32_t i = 0; i < engine_access_size(access); i++) {
         const uint32_t index = engine_access_subresource(&graph->frame.dependencies, access, i);
         const uint32_t layers = graph->frame.dependencies.resources[access->resource].layers;
-        const uint64_t bytes = engine_graph_range_bytes(
-            resource,
-            &(lobe_range){.first_level = index / layers, .level_count = 1, .layer_count = 1});
+        const lobe_range one = {.first_level = index / layers, .level_count = 1, .layer_count = 1};
+        const uint64_t bytes =
+            access->part_bytes ? access->part_bytes : engine_graph_range_bytes(resource, &one);
         uint64_t *mark = &counted[first + index];
         const uint64_t former = *mark >> 2 == mine >> 2 ? *mark & 3 : 0;
         pass->read_bytes += (directions & ~former & COUNTED_READ) ? bytes : 0;

@@ -52,6 +52,8 @@ static engine_stamp sign_command(engine_stamp stamp, const engine_graph_command 
     stamp = engine_stamp_mix(stamp, command->shader_stamp);
     stamp = sign_bindings(stamp, &command->bindings);
     stamp = engine_stamp_bytes(stamp, command->value, sizeof command->value);
+    stamp = engine_stamp_bytes(stamp, &command->part, sizeof command->part);
+    stamp = engine_stamp_mix(engine_stamp_mix(stamp, command->target_x), command->target_y);
     stamp = engine_stamp_mix(stamp, command->indirect_access != ENGINE_DEPENDENCY_NONE);
     stamp = engine_stamp_mix(stamp, command->indirect_offset);
     if (command->kind == ENGINE_GRAPH_DISPATCH)

@@ -132,6 +132,7 @@ typedef struct engine_dependency_access {
     lobe_range range; ///< with counts above 0
     engine_access_kind kind;
     engine_access_state state;
+    uint64_t part_bytes;   ///< moved where that is a part of the range; 0: all of it
     uint32_t next;         ///< access of the same pass
     uint32_t first_source; ///< index into `sources`: who wrote each subresource before
 } engine_dependency_access;

@@ -205,10 +205,15 @@ static void copy_images(lobe_graph *graph, const engine_graph_command *command) 
     const engine_graph_resource *target = resource_at(graph, command->target_access);
     const engine_dependency_access *from = access_at(graph, command->source_access);
     const engine_dependency_access *to = access_at(graph, command->target_access);
+    const lobe_rectangle *part = &command->part;
     for (uint32_t i = 0; i < from->range.level_count; i++) {
-        const VkImageCopy copy = {.srcSubresource = layers_of(source, &from->range, i),
-                                  .dstSubresource = layers_of(target, &to->range, i),
-                                  .extent = level_extent(source, from->range.first_level + i)};
+        const VkImageCopy copy = {
+            .srcSubresource = layers_of(source, &from->range, i),
+            .srcOffset = {(int32_t)part->x, (int32_t)part->y, 0},
+            .dstSubresource = layers_of(target, &to->range, i),
+            .dstOffset = {(int32_t)command->target_x, (int32_t)command->target_y, 0},
+            .extent = part->width > 0 ? (VkExtent3D){part->width, part->height, 1}
+                                      : level_extent(source, from->range.first_level + i)};
         graph->device->api.vkCmdCopyImage(graph->frame.commands, source->object->image,
                                           engine_graph_vulkan_layout(from->state.layout),
                                           target->object->image,

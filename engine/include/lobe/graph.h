@@ -348,6 +348,12 @@ LOBE_API void lobe_pass_draw(lobe_pass *pass, const lobe_draw *draw);
 LOBE_API lobe_resource lobe_pass_copy(lobe_pass *pass, lobe_resource source,
                                       lobe_range source_range, lobe_resource target,
                                       lobe_range target_range);
+/// Transfer passes: copies the texels of `part` to (`x`, `y`) and the following columns and rows of
+/// `target`, of which the others stay: of the first level and layer of images whose texels have the
+/// same size. Returns the new version of `target`.
+LOBE_API lobe_resource lobe_pass_copy_part(lobe_pass *pass, lobe_resource source,
+                                           const lobe_rectangle *part, lobe_resource target,
+                                           uint32_t x, uint32_t y);
 /// Transfer passes: fills with a constant. Depth uses the first value; a buffer is filled with the
 /// bits of the first value. Returns the new version.
 LOBE_API lobe_resource lobe_pass_fill(lobe_pass *pass, lobe_resource target, lobe_range range,

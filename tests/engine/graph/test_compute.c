@@ -338,6 +338,31 @@ static void copies_between_levels(void **state) {
     assert_true(read_floats(fixture, small, 16)[0] == 50.5f);
 }
 
+/// Twice into one image, whose other texels stay.
+static void copies_parts(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_graph_begin(fixture->graph);
+    lobe_resource image = graph_fixture_image(fixture, "image", LOBE_FORMAT_R32_FLOAT, 8, 8);
+    lobe_resource other = graph_fixture_image(fixture, "other", LOBE_FORMAT_R32_FLOAT, 6, 5);
+    image = paint(fixture, image, 8, 8, 1);
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "fill");
+    other = lobe_pass_fill(pass, other, (lobe_range){0}, (const float[4]){-1});
+    for (uint32_t i = 0; i < 2; i++) {
+        pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "copy");
+        other =
+            lobe_pass_copy_part(pass, image, &(lobe_rectangle){2 + i, 3, 2, 4}, other, 4 * i, i);
+    }
+    lobe_graph_read_back(fixture->graph, other, (lobe_range){0});
+    graph_fixture_execute(fixture);
+    const float *texels = read_floats(fixture, other, 30);
+    for (int y = 0; y < 5; y++)
+        for (int x = 0; x < 6; x++) {
+            const float first = x < 2 && y < 4 ? (float)(x + 2 + 100 * (y + 3)) : -1;
+            const float second = x >= 4 && y >= 1 ? (float)(x - 1 + 100 * (y + 2)) : first;
+            assert_true(texels[6 * y + x] == second);
+        }
+}
+
 /// A series of images, two of them alive at a time, each in memory that others used before.
 static void images_share_memory(void **state) {
     graph_fixture *fixture = *state;
@@ -493,6 +518,7 @@ int main(void) {
         TEST(one_pass_reads_one_image_in_two_ways),
         TEST(fills_and_copies),
         TEST(copies_between_levels),
+        TEST(copies_parts),
         TEST(images_share_memory),
         TEST(a_cube_is_read),
         TEST(what_no_output_needs_does_not_run),

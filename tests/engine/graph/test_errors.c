@@ -305,6 +305,45 @@ static void copies_that_do_not_match(void **state) {
     }
 }
 
+static void parts_that_do_not_fit(void **state) {
+    static const struct {
+        lobe_rectangle part;
+        uint32_t x, y;
+        lobe_format format;
+    } cases[] = {
+        {{1, 0, 4, 1}, 0, 0, LOBE_FORMAT_R32_FLOAT},
+        {{0, 0, 2, 2}, 3, 0, LOBE_FORMAT_R32_FLOAT},
+        {{0, 0, 2, 2}, 0, UINT32_MAX, LOBE_FORMAT_R32_FLOAT},
+        {{0, 0, 0, 2}, 0, 0, LOBE_FORMAT_R32_FLOAT},
+        {{0, 0, 2, 2}, 0, 0, LOBE_FORMAT_RG32_FLOAT},
+        {{0, 0, 2, 2}, 0, 0, LOBE_FORMAT_D32_FLOAT},
+    };
+    graph_fixture *fixture = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        fixture->recorder.errors = 0;
+        lobe_pass *pass = begin_with(fixture, LOBE_PASS_TRANSFER);
+        lobe_image_description description = {
+            .name = "source", .format = LOBE_FORMAT_R32_FLOAT, .width = 4, .height = 4};
+        lobe_resource source = filled_image(fixture, description);
+        description.name = "target";
+        description.format = cases[i].format;
+        lobe_resource target = filled_image(fixture, description);
+        lobe_pass_copy_part(pass, source, &cases[i].part, target, cases[i].x, cases[i].y);
+        GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", "'source'", "'target'");
+    }
+    // What a part leaves alone must have content.
+    fixture->recorder.errors = 0;
+    lobe_pass *pass = begin_with(fixture, LOBE_PASS_TRANSFER);
+    lobe_image_description description = {
+        .name = "source", .format = LOBE_FORMAT_R32_FLOAT, .width = 4, .height = 4};
+    lobe_resource source = filled_image(fixture, description);
+    description.name = "target";
+    lobe_resource target = lobe_graph_image(fixture->graph, &description);
+    target = lobe_pass_copy_part(pass, source, &(lobe_rectangle){0, 0, 2, 2}, target, 0, 0);
+    lobe_graph_output(fixture->graph, target);
+    GRAPH_EXPECT(fixture, LOBE_ERROR_GRAPH, "'wrong'", "'target'");
+}
+
 static void late_declarations(void **state) {
     graph_fixture *fixture = *state;
     lobe_graph_begin(fixture->graph);
@@ -677,6 +716,7 @@ int main(void) {
         TEST(compute_without_dispatch),
         TEST(raster_without_attachments),
         TEST(copies_that_do_not_match),
+        TEST(parts_that_do_not_fit),
         TEST(late_declarations),
         TEST(execution_twice),
         TEST(later_calls_do_nothing),

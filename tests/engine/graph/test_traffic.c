@@ -66,6 +66,19 @@ static void ranges_count_their_texels(void **state) {
     assert_traffic(fixture, "copy", 3 * 2 * 8, 3 * 2 * 8);
 }
 
+/// Of a part of an image, what is copied, not what stays.
+static void parts_count_their_texels(void **state) {
+    graph_fixture *fixture = *state;
+    lobe_graph_begin(fixture->graph);
+    lobe_resource source = fill(fixture, pyramid(fixture, 13, 5, 1, 1), (lobe_range){0});
+    lobe_resource target = fill(fixture, pyramid(fixture, 7, 7, 1, 1), (lobe_range){0});
+    lobe_pass *pass = lobe_graph_add_pass(fixture->graph, LOBE_PASS_TRANSFER, "copy");
+    target = lobe_pass_copy_part(pass, source, &(lobe_rectangle){8, 1, 4, 3}, target, 2, 4);
+    lobe_graph_output(fixture->graph, target);
+    graph_fixture_execute(fixture);
+    assert_traffic(fixture, "copy", 4 * 3 * 8, 4 * 3 * 8);
+}
+
 /// Two bindings of one image count as one read.
 static void what_is_bound_twice_counts_once(void **state) {
     graph_fixture *fixture = *state;
@@ -110,6 +123,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(buffers_count_whole, graph_fixture_open,
                                         graph_fixture_close),
         cmocka_unit_test_setup_teardown(ranges_count_their_texels, graph_fixture_open,
+                                        graph_fixture_close),
+        cmocka_unit_test_setup_teardown(parts_count_their_texels, graph_fixture_open,
                                         graph_fixture_close),
         cmocka_unit_test_setup_teardown(what_is_bound_twice_counts_once, graph_fixture_open,
                                         graph_fixture_close),

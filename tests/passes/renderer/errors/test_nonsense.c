@@ -216,6 +216,7 @@ static void graphs_that_are_none(void **state) {
     assert_int_equal(lobe_pass_depth(NULL, NULL).version, 0);
     lobe_pass_draw(NULL, NULL);
     assert_int_equal(lobe_pass_copy(NULL, none, all, none, all).version, 0);
+    assert_int_equal(lobe_pass_copy_part(NULL, none, NULL, none, 0, 0).version, 0);
     assert_int_equal(lobe_pass_fill(NULL, none, all, NULL).version, 0);
     lobe_pass_keep(NULL);
     lobe_pass_export(NULL, NULL);
