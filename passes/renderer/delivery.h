@@ -14,17 +14,29 @@ struct frame_delivery {
     bool prepares;                            ///< nothing is submitted: only pipelines are made
 };
 
+/// The target's images in a frame's graph. All zero: there is no target.
+typedef struct delivery_target {
+    /// What is drawn into: those images, or where the viewport is a part of them, images of its
+    /// size and of their formats.
+    shading_targets drawn;
+    lobe_resource radiance, depth, motion; ///< those of which the viewport is a part, or none
+} delivery_target;
+
 /// The delivery that the caller of lobe_renderer_render asks for.
 frame_delivery passes_delivery_of(const lobe_render_parameters *parameters);
 
-/// Imports the images of the delivery's target into the graph and takes over their extent;
-/// `imported` is all zero without a target. LOBE_ERROR_INVALID_ARGUMENT: the target has no
-/// radiance, or an extent that differs from the one asked for. Other errors in an image stay in the
+/// Imports the images of the delivery's target into the graph and takes over the extent of its
+/// viewport. LOBE_ERROR_INVALID_ARGUMENT: the target has no radiance, a viewport that it does not
+/// contain, or an extent that differs from the one asked for. Other errors in an image stay in the
 /// graph.
 lobe_result passes_delivery_import(rendering *r, const frame_delivery *delivery,
-                                   shading_targets *imported);
-/// Replaces the images in `targets` with the imported ones.
-void passes_delivery_replace(const shading_targets *imported, shading_targets *targets);
+                                   delivery_target *imported);
+/// Replaces the images in `targets` with those of the imported target that are drawn into.
+void passes_delivery_replace(const delivery_target *imported, shading_targets *targets);
+/// Copies what was drawn for a part of the host's images to its place, and replaces the images in
+/// `targets` with the host's.
+void passes_delivery_place(const rendering *r, const frame_delivery *delivery,
+                           const delivery_target *imported, shading_targets *targets);
 
 /// Makes the graph compute an image of ours, and read it back if the delivery does.
 void passes_delivery_mark_output(const rendering *r, const frame_delivery *delivery,

@@ -59,7 +59,7 @@ static motion_start start_of_motion(const rendering *r) {
 }
 
 static shading_targets declare_targets(const rendering *r, const frame_delivery *delivery,
-                                       const shading_targets *imported) {
+                                       const delivery_target *imported) {
     lobe_graph *graph = r->renderer->graph;
     shading_targets targets =
         passes_shading_targets_declare(graph, r->width, r->height, delivery->aov);
@@ -127,7 +127,7 @@ static lobe_result take_images(const rendering *r, const frame_delivery *deliver
 }
 
 lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
-    shading_targets imported, targets;
+    delivery_target imported;
     lobe_graph *graph = r->renderer->graph;
     const lobe_scene *scene = r->context.scene->scene;
     motion_history *history = &r->renderer->motion;
@@ -141,9 +141,10 @@ lobe_result passes_frame_render(rendering *r, const frame_delivery *delivery, lo
     if (result != LOBE_OK)
         return result;
     passes_instances_list(r);
-    targets = declare_targets(r, delivery, &imported);
+    shading_targets targets = declare_targets(r, delivery, &imported);
     passes_instance_maps_build(r, &targets, frame);
     draw(r, delivery, &targets);
+    passes_delivery_place(r, delivery, &imported, &targets);
     mark_outputs(r, delivery, &targets);
     result = passes_delivery_run(r, delivery, frame);
     if (result == LOBE_OK && delivery->motion && !delivery->prepares)

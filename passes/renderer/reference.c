@@ -133,18 +133,19 @@ static lobe_result render_mean(rendering *r, const frame_delivery *delivery,
 
 /// Takes over the target's extent, and reports errors in it, before any sample is taken.
 static lobe_result measure_target(rendering *r, const frame_delivery *delivery) {
-    shading_targets imported;
+    delivery_target imported;
     lobe_graph_begin(r->renderer->graph);
     lobe_result result = passes_delivery_import(r, delivery, &imported);
     // An error in the image itself stays in the graph, until it is compiled.
-    return result == LOBE_OK && imported.width == 0 ? lobe_graph_compile(r->renderer->graph)
-                                                    : result;
+    return result == LOBE_OK && imported.drawn.width == 0 ? lobe_graph_compile(r->renderer->graph)
+                                                          : result;
 }
 
 /// Draws the mean into the target instead of delivering it.
 static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
-    shading_targets imported, targets = {.width = r->width, .height = r->height};
+    delivery_target imported;
+    shading_targets targets = {.width = r->width, .height = r->height};
     lobe_graph_set_frames_in_flight(graph, r->parameters->host.frames_in_flight);
     lobe_graph_begin(graph);
     lobe_result result = passes_delivery_import(r, delivery, &imported);
@@ -156,6 +157,7 @@ static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_
     (void)passes_shading_light_prepare(&r->context, &r->environment);
     passes_delivery_replace(&imported, &targets);
     passes_picture_drawing(graph, frame->radiance.texels, &targets);
+    passes_delivery_place(r, delivery, &imported, &targets);
     lobe_graph_output(graph, targets.radiance);
     lobe_image_free(&frame->radiance);
     return passes_delivery_run(r, delivery, frame);

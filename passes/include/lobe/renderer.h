@@ -145,13 +145,22 @@ typedef struct lobe_render_target {
     /// so the device must be able to blend that format; several samples also need `depth` to have
     /// VK_IMAGE_USAGE_TRANSFER_SRC_BIT.
     bool keep;
+    /// The pixels of all of these images that are drawn, from the upper left; the others are left
+    /// as they are, if the image's `layout` says that it has content. All zero: the whole images,
+    /// which then have one extent. The picture is the same to the bit as one of this size alone,
+    /// wherever the viewport is: of a part, lobe draws it into images of its own, of these formats,
+    /// and copies it. The images then need VK_IMAGE_USAGE_TRANSFER_DST_BIT, and with `keep`
+    /// VK_IMAGE_USAGE_TRANSFER_SRC_BIT, and no other.
+    lobe_rectangle viewport;
 } lobe_render_target;
 
 /// The resources of a frame, for passes of the host.
 typedef struct lobe_render_resources {
-    uint32_t width, height; ///< pixels
-    lobe_resource radiance; ///< RGBA32_FLOAT, or the target's
-    lobe_resource depth;    ///< D32_FLOAT, reversed
+    uint32_t width, height; ///< pixels: those of the target's viewport
+    /// RGBA32_FLOAT, or the target's. Of a viewport that is a part of the target, these three are
+    /// images of its size, which are copied to their place after the host's last passes.
+    lobe_resource radiance;
+    lobe_resource depth; ///< D32_FLOAT, reversed
     /// As in lobe_frame; none without `aov`.
     lobe_resource normal_depth, lobes_level;
     lobe_resource motion; ///< RG32_FLOAT, or the target's; none without motion
@@ -235,7 +244,7 @@ typedef struct lobe_render_host {
                        lobe_render_resources *resources);
     void *user; ///< passed to all callbacks
     /// Images to draw into. NULL: an image of lobe's own, delivered in the frame. Otherwise no
-    /// radiance is delivered, and `width` and `height` are 0 or the target's.
+    /// radiance is delivered, and `width` and `height` are 0 or those of the target's viewport.
     const lobe_render_target *target;
     /// How the frame is submitted to the device, see lobe_graph_submit. Nothing is waited for and
     /// nothing is delivered; lobe_graph_wait on the renderer's graph waits. NULL: lobe submits,
@@ -325,13 +334,13 @@ LOBE_API void lobe_frame_free(lobe_frame *frame);
 
 /// Renders one image. On failure `*frame` is zero, and the host's command buffer must not be
 /// submitted. Errors: LOBE_ERROR_INVALID_ARGUMENT (no scene, a value or a camera's number out of
-/// range, an extent that differs from the target's), LOBE_ERROR_MALFORMED (a light, a transform or
-/// another part of the scene that is read in every frame, as for lobe_renderer_set_scene),
-/// LOBE_ERROR_UNSUPPORTED (the reference, which takes many submissions, with the host's passes,
-/// with a target's depth or motion, or with a submission but no target; a knob that needs a feature
-/// which the device lacks; env=exact in a filter that has maps with normal_mapping=microfacet, or
-/// in one that fetches them for each light with probes above 1), LOBE_ERROR_LIMIT (size),
-/// LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
+/// range, a viewport that exceeds its target, an extent that differs from the target's),
+/// LOBE_ERROR_MALFORMED (a light, a transform or another part of the scene that is read in every
+/// frame, as for lobe_renderer_set_scene), LOBE_ERROR_UNSUPPORTED (the reference, which takes many
+/// submissions, with the host's passes, with a target's depth or motion, or with a submission but
+/// no target; a knob that needs a feature which the device lacks; env=exact in a filter that has
+/// maps with normal_mapping=microfacet, or in one that fetches them for each light with probes
+/// above 1), LOBE_ERROR_LIMIT (size), LOBE_ERROR_OUT_OF_DEVICE_MEMORY, ...
 LOBE_API lobe_result lobe_renderer_render(lobe_renderer *renderer,
                                           const lobe_render_parameters *parameters,
                                           lobe_frame *frame);
