@@ -122,6 +122,8 @@ typedef struct target_elements {
     gltf_elements position, normal, tangent;
 } target_elements;
 
+// What the mesh does not have itself is found from its shape, and so is what targets do to it (glTF
+// 2.0, section 3.7.2.2).
 static lobe_result open_target(const gltf_import *import, const gltf_attributes *attributes,
                                const gltf_target *target, size_t index, target_elements *elements) {
     lobe_result result = LOBE_OK;
@@ -135,6 +137,10 @@ static lobe_result open_target(const gltf_import *import, const gltf_attributes 
     if (result == LOBE_OK && target->tangent >= 0)
         result = scenes_gltf_open_target(import, attributes, GLTF_TANGENT, target->tangent, index,
                                          &elements->tangent);
+    if (!attributes->present[GLTF_NORMAL])
+        elements->normal.count = 0;
+    if (!attributes->present[GLTF_NORMAL] || !attributes->present[GLTF_TANGENT])
+        elements->tangent.count = 0;
     return result;
 }
 

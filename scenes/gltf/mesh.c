@@ -127,6 +127,19 @@ static size_t orthonormalise_tangents(lobe_mesh *mesh) {
     return bad;
 }
 
+// Where nothing is laid out along tangents, targets need none.
+static lobe_result compute_tangents(gltf_import *import, const lobe_material *material,
+                                    lobe_mesh *mesh) {
+    lobe_result result = scenes_mesh_compute_tangents(mesh, &material->normal_map, import->host);
+    if (result != LOBE_OK || !mesh->deformation || material->normal_map.image < 0)
+        return result;
+    const size_t before = mesh->deformation->delta_count;
+    result = scenes_mesh_compute_target_tangents(
+        mesh, &material->normal_map, GLTF_MAXIMUM_DELTAS - import->deltas, import->host);
+    import->deltas += mesh->deformation->delta_count - before;
+    return result;
+}
+
 static lobe_result complete_frames(gltf_import *import, const gltf_attributes *attributes,
                                    const lobe_material *material, lobe_mesh *mesh) {
     size_t repaired = 0, bad_tangents = 0;
@@ -142,7 +155,7 @@ static lobe_result complete_frames(gltf_import *import, const gltf_attributes *a
     import->notes.repaired_tangents += bad_tangents;
     if (tangents && bad_tangents == 0)
         return LOBE_OK;
-    return scenes_mesh_compute_tangents(mesh, &material->normal_map, import->host);
+    return compute_tangents(import, material, mesh);
 }
 
 static void note_missing_coordinates(gltf_import *import, const lobe_material *material,

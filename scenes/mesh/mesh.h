@@ -37,6 +37,12 @@ lobe_result scenes_mesh_repair_normals(lobe_mesh *mesh, const lobe_host *host, s
 lobe_result scenes_mesh_compute_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
                                          const lobe_host *host);
 
+/// Gives each morph target of a mesh with such tangents those of its shape, as far as texture
+/// coordinates direct them: sets the deltas' tangents, and adds deltas of vertices that only turn,
+/// at most `most`; LOBE_ERROR_LIMIT if there are more. `use` as above.
+lobe_result scenes_mesh_compute_target_tangents(lobe_mesh *mesh, const lobe_texture_use *use,
+                                                size_t most, const lobe_host *host);
+
 /// Smooth tangents of a mesh of our own, with one tangent and w = 1 at every vertex: the mean of
 /// its triangles' tangents along increasing u of the first set, weighted by area. Vertices are
 /// neither welded nor split. Not for maps that another program has baked.

@@ -12,6 +12,7 @@
 #include "scenes/mesh/deformation.h"
 #include "scenes/mesh/mesh.h"
 #include "scenes/mesh/tangent_groups.h"
+#include "scenes/mesh/tangents.h"
 #include "scenes/mesh/vector.h"
 #include "scenes/mesh/weld.h"
 
@@ -34,34 +35,44 @@ static vector3 position_at(const tangent_work *work, uint32_t corner) {
 // ---------------------------------------------------------------------------------------------
 // Triangles
 
-static void load_coordinates(const tangent_work *work, uint32_t corner, float uv[2]) {
-    const lobe_scene_vertex *vertex = &work->mesh->vertices[work->mesh->indices[corner]];
-    const float *set = vertex->texture_coordinates[work->use->texture_coordinates];
+static void load_coordinates(const lobe_mesh *mesh, const lobe_texture_use *use, uint32_t corner,
+                             float uv[2]) {
+    const float *set =
+        mesh->vertices[mesh->indices[corner]].texture_coordinates[use->texture_coordinates];
     for (int row = 0; row < 2; row++) {
-        const float *m = work->use->transform[row];
+        const float *m = use->transform[row];
         uv[row] = (float)((double)m[0] * set[0] + (double)m[1] * set[1] + m[2]);
     }
 }
 
 // Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh": solves
-// edge_k = du_k T + dv_k B. Whether coordinates have an area is decided in single precision, as
-// Mikkelsen's implementation does.
-static void measure_triangle(const tangent_work *work, uint32_t first, tangent_triangle *triangle) {
+// edge_k = du_k T + dv_k B.
+triangle_mapping scenes_mesh_map_triangle(const lobe_mesh *mesh, const lobe_texture_use *use,
+                                          uint32_t first) {
+    vector3 p[3];
     float uv[3][2];
-    for (uint32_t k = 0; k < 3; k++)
-        load_coordinates(work, first + k, uv[k]);
+    for (uint32_t k = 0; k < 3; k++) {
+        p[k] = vector3_load(mesh->vertices[mesh->indices[first + k]].position);
+        load_coordinates(mesh, use, first + k, uv[k]);
+    }
     float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
     float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
-    float area = du1 * dv2 - dv1 * du2;
-    vector3 origin = position_at(work, first);
-    vector3 edge1 = vector3_subtract(position_at(work, first + 1), origin);
-    vector3 edge2 = vector3_subtract(position_at(work, first + 2), origin);
-    vector3 along = vector3_subtract(vector3_scale(edge1, dv2), vector3_scale(edge2, dv1));
-    vector3 down = vector3_subtract(vector3_scale(edge2, du1), vector3_scale(edge1, du2));
-    triangle->mirrored = area > 0;
+    vector3 edge1 = vector3_subtract(p[1], p[0]), edge2 = vector3_subtract(p[2], p[0]);
+    return (triangle_mapping){
+        .along = vector3_subtract(vector3_scale(edge1, dv2), vector3_scale(edge2, dv1)),
+        .down = vector3_subtract(vector3_scale(edge2, du1), vector3_scale(edge1, du2)),
+        .area = du1 * dv2 - dv1 * du2};
+}
+
+// Whether coordinates have an area is decided in single precision, as Mikkelsen's implementation
+// does.
+static void measure_triangle(const tangent_work *work, uint32_t first, tangent_triangle *triangle) {
+    triangle_mapping mapping = scenes_mesh_map_triangle(work->mesh, work->use, first);
+    triangle->mirrored = mapping.area > 0;
     triangle->undirected =
-        !(fabsf(area) > FLT_MIN && vector3_normalise(&along, 0) && vector3_length(down) > 0);
-    triangle->tangent = area > 0 ? along : vector3_scale(along, -1);
+        !(fabsf(mapping.area) > FLT_MIN && vector3_normalise(&mapping.along, 0) &&
+          vector3_length(mapping.down) > 0);
+    triangle->tangent = mapping.area > 0 ? mapping.along : vector3_scale(mapping.along, -1);
 }
 
 static bool same_position(vector3 a, vector3 b) {

@@ -80,9 +80,13 @@ static const char moving_document[] =
     "{\"bufferView\":1,\"componentType\":5121,\"type\":\"VEC4\",\"count\":3},"
     "{\"bufferView\":2,\"componentType\":5126,\"type\":\"VEC4\",\"count\":3},"
     "{\"bufferView\":3,\"componentType\":5126,\"type\":\"SCALAR\",\"count\":2},"
-    "{\"bufferView\":4,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2}],"
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2},"
-    "\"targets\":[{\"POSITION\":0}]}]}],\"skins\":[{\"joints\":[1]}],"
+    "{\"bufferView\":4,\"componentType\":5126,\"type\":\"VEC3\",\"count\":2},"
+    "{\"bufferView\":4,\"componentType\":5126,\"type\":\"VEC2\",\"count\":3}],"
+    "\"images\":[{\"uri\":\"map.png\"}],\"textures\":[{\"source\":0}],"
+    "\"materials\":[{\"normalTexture\":{\"index\":0}}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":5,\"JOINTS_0\":1,"
+    "\"WEIGHTS_0\":2},\"targets\":[{\"POSITION\":0}],\"material\":0}]}],\"skins\":[{\"joints\":[1]}"
+    "],"
     "\"nodes\":[{\"mesh\":0,\"skin\":0,\"weights\":[1]},{},{\"mesh\":0}],"
     "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,"
     "\"path\":\"translation\"}}],\"samplers\":[{\"input\":3,\"output\":4}]}]}";
@@ -101,6 +105,7 @@ static void rigs_say_where_memory_ends(void **state) {
     char path[512];
     lobe_file_write(temporary_folder_file(&test_folder, "triangle.bin"), triangle, sizeof triangle,
                     NULL);
+    write_image(temporary_folder_file(&test_folder, "map.png"), LOBE_FORMAT_RGBA8_SRGB);
     snprintf(path, sizeof path, "%s", temporary_folder_file(&test_folder, "moving.gltf"));
     lobe_scene_open_parameters parameters = {
         .scene = path, .data = moving_document, .size = sizeof moving_document - 1};

@@ -33,6 +33,8 @@ typedef struct lobe_joint_influence {
 } lobe_joint_influence;
 
 /// What a morph target of weight 1 adds to a vertex. 10 words, read by the shaders as they are.
+/// Sums need not be of unit length. Of a glTF file's mesh without tangents, those of each target
+/// are found from its shape, if the material has a normal map.
 typedef struct lobe_morph_delta {
     uint32_t target;
     float position[3], normal[3], tangent[3];

@@ -309,6 +309,51 @@ static void sparse_targets_are_read(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// A target that turns a triangle by a right angle, and says otherwise of its tangents.
+static void targets_find_their_tangents(void **state) {
+    static const float normals[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+    static const float coordinates[6] = {0, 1, 1, 1, 0, 0};
+    static const float turn[9] = {0, 0, 0, -1, 1, 0, -1, -1, 0},
+                       wrong[9] = {5, 5, 5, 5, 5, 5, 5, 5, 5};
+    static const float tangents[12] = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    for (int own = 0; own < 2; own++) {
+        char members[2048];
+        gltf_builder builder = {0};
+        gltf_builder_add_floats(&builder, "VEC3", 3, triangle);
+        gltf_builder_add_floats(&builder, "VEC3", 3, normals);
+        gltf_builder_add_floats(&builder, "VEC2", 3, coordinates);
+        gltf_builder_add_floats(&builder, "VEC3", 3, turn);
+        gltf_builder_add_floats(&builder, "VEC3", 3, wrong);
+        gltf_builder_add_floats(&builder, "VEC4", 3, tangents);
+        snprintf(
+            members, sizeof members,
+            ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,"
+            "\"TEXCOORD_0\":2%s},\"targets\":[{\"POSITION\":3,\"TANGENT\":4}],"
+            "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"materials\":[{\"normalTexture\":{"
+            "\"index\":0}}],\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"data:image/"
+            "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgG"
+            "AWjR9awAAAABJRU5ErkJggg==\"}]",
+            own ? ",\"TANGENT\":5" : "");
+        gltf_builder_write(&builder, *state, "turn.glb", members);
+        lobe_scene *scene = gltf_fixture_must_open(*state, "turn.glb");
+        const lobe_mesh *mesh = &scene->meshes[0];
+        assert_int_equal(mesh->vertex_count, 3);
+        assert_int_equal(mesh->deformation->delta_count, 3);
+        for (size_t i = 0; i < 3; i++) {
+            const lobe_morph_delta *delta = &mesh->deformation->deltas[i];
+            const float *tangent = mesh->vertices[i].tangent;
+            assert_int_equal(mesh->deformation->first_deltas[i], i);
+            assert_float_equal(tangent[0], 1, 1e-6);
+            if (own)
+                assert_memory_equal(delta->tangent, wrong + 3 * i, sizeof delta->tangent);
+            else
+                for (int axis = 0; axis < 3; axis++)
+                    assert_float_equal(tangent[axis] + delta->tangent[axis], axis == 1, 1e-6);
+        }
+        lobe_scene_destroy(&scene);
+    }
+}
+
 static void broken_targets_are_named(void **state) {
     static const struct {
         const char *mesh, *node, *cause;
@@ -392,6 +437,7 @@ int main(void) {
         cmocka_unit_test(broken_skins_are_named),
         cmocka_unit_test(weights_are_repaired),
         cmocka_unit_test(sparse_targets_are_read),
+        cmocka_unit_test(targets_find_their_tangents),
         cmocka_unit_test(broken_targets_are_named),
         cmocka_unit_test(split_vertices_keep_their_deformation),
     };
