@@ -116,7 +116,8 @@ static void check_way(fixture *f, const way *by, const lobe_vulkan_image *image)
     lobe_renderer *renderer = renderer_of(f, scene);
     lobe_render_parameters wanted = parameters(by->filter);
     const lobe_settings settings = settings_of(wanted.filter, by->settings);
-    const lobe_render_target target = {.radiance = image};
+    const lobe_render_target target = {.radiance = image,
+                                       .viewport = {image->width - EXTENT, 0, EXTENT, EXTENT}};
     wanted.settings = &settings;
     wanted.aov = wanted.motion.deliver = by->outputs;
     wanted.host.target = by->target ? &target : NULL;
@@ -185,12 +186,14 @@ static void prepared_frames_make_no_pipelines(void **state) {
         fixture own = start(*state);
         host_device host = {0};
         lobe_vulkan_export_device(own.device, &host.vulkan);
-        const VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        const VkImageUsageFlags usage =
+            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        const uint32_t width = EXTENT + (i == 1 ? 8 : 0); // the picture is a part of it, or all
         host_image image =
-            host_image_create(&host, VK_FORMAT_R16G16B16A16_SFLOAT, EXTENT, EXTENT, usage);
+            host_image_create(&host, VK_FORMAT_R16G16B16A16_SFLOAT, width, EXTENT, usage);
         const lobe_vulkan_image lent = {.image = image.image,
                                         .format = image.format,
-                                        .width = EXTENT,
+                                        .width = width,
                                         .height = EXTENT,
                                         .usage = usage,
                                         .final_layout = VK_IMAGE_LAYOUT_GENERAL};
