@@ -600,8 +600,8 @@ plane_bin bin_of(facet_group facets, float width) {
     bin.spread = 0.5 * (bin.places.x + bin.places.y);
     vec3 base = bin.variance * plane_distortion(bin.mean);
     bin.covariance = bin.places + base;
-    make_terms(bin, bin.places, base, 0.0);
-    keep_shape(bin, 0.0);
+    make_terms(bin, bin.places, base, vec2(bin.variance), 0.0);
+    keep_shape(bin, vec2(bin.variance));
     return bin;
 }
 

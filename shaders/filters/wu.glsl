@@ -214,8 +214,8 @@ plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
     vec3 base = bin.variance * distortion;
     bin.covariance = bin.places + base;
     bin.mass = weight * plane_mass(MODEL, distribution_kind(), width);
-    make_terms(bin, bin.places, base, 0.0);
-    keep_shape(bin, 0.0);
+    make_terms(bin, bin.places, base, vec2(bin.variance), 0.0);
+    keep_shape(bin, vec2(bin.variance));
     return bin;
 }
 

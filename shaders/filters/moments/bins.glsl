@@ -70,15 +70,16 @@ plane_bin read_bin(surface_point surface, map_area texels, float mass_scale, uin
     bin.mean_variance = spread.w * scale * binning.bins[index].shape.w;
     if (WIDTHS_APART)
         take_widths(bin);
-    float varies = width_statistics(bin);
+    float varies;
+    vec2 halves = width_statistics(bin, varies);
     vec3 covariance =
         covariance_of(mean, spread.xyz * scale) * (range.z * range.z) + surface.curvature;
     vec3 base = bin.variance * plane_distortion(bin.mean);
     bin.covariance = covariance + base;
     bin.places = covariance;
-    make_terms(bin, covariance, base, varies);
+    make_terms(bin, covariance, base, halves, varies);
     bin.spread = 0.5 * (covariance.x + covariance.y);
-    keep_shape(bin, varies);
+    keep_shape(bin, halves);
     return bin;
 }
 

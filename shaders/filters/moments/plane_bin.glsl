@@ -58,57 +58,64 @@ int term_count() {
     return distribution_kind() == DISTRIBUTION_GGX ? MAXIMUM_TERMS : BIN_WIDTHS ? 2 : 1;
 }
 
-// The median variance and, returned, the variance of log sqrt(v). Base lobes of a kind that is one
-// Gaussian are represented by two, of deviations exp(-s) and exp(s) times the median:
-//   median mean(1 / sqrt(v))^2 = cosh(s)^2, mean(v) = cosh(2 s) median;
-// those with tails vary log-normally:
+// The variances of two base lobes, each of half of the bin, that have the means of 1 / sqrt(v) and
+// of v. With m their geometric mean and deviations of exp(-s) and exp(s) times its root:
+//   m mean(1 / sqrt(v))^2 = cosh(s)^2, mean(v) = cosh(2 s) m.
+vec2 halves_of_widths(plane_bin bin, float ratio) {
+    float square = 0.25 + 0.25 * sqrt(1.0 + 8.0 * ratio);
+    float factor = sqrt(square) + sqrt(square - 1.0); // exp(s)
+    return square / (bin.sharpness * bin.sharpness) *
+           vec2(1.0 / (factor * factor), factor * factor);
+}
+
+// Sets the median variance. Returned are those of two halves, and the variance of log sqrt(v) for
+// base lobes with tails, which vary log-normally:
 //   median mean(1 / sqrt(v))^2 = exp(s^2), mean(v) = exp(2 s^2) median.
-float width_statistics(inout plane_bin bin) {
+// Where that is more than terms can follow, the mean of v is kept: rough texels are seen far from
+// the highlight, and the sharpest hardly anywhere.
+vec2 width_statistics(inout plane_bin bin, out float varies) {
     bin.variance = 1.0 / (bin.sharpness * bin.sharpness);
+    varies = 0.0;
     if (!BIN_WIDTHS) {
         bin.mean_variance = bin.variance;
-        return 0.0;
+        return vec2(bin.variance);
     }
     float ratio = clamp(bin.mean_variance / bin.variance, 1.0, 1e8);
+    vec2 halves = halves_of_widths(bin, ratio);
     if (distribution_kind() == DISTRIBUTION_GGX) {
-        float varies = min(log(ratio) / 3.0, TAIL_VARIES_MAXIMUM);
-        bin.variance *= exp(varies);
-        return varies;
+        varies = min(log(ratio) / 3.0, TAIL_VARIES_MAXIMUM);
+        bin.variance *= ratio * exp(-2.0 * varies);
+    } else {
+        bin.variance = sqrt(halves.x * halves.y);
     }
-    float square = 0.25 + 0.25 * sqrt(1.0 + 8.0 * ratio);
-    bin.variance *= square;
-    float s = acosh(sqrt(square));
-    return s * s;
+    return halves;
 }
 
 // The base lobe's own shape, which no sum of Gaussians matches exactly. While the normals spread
 // little compared to it, the bin has this shape too.
-void keep_shape(inout plane_bin bin, float varies) {
+void keep_shape(inout plane_bin bin, vec2 halves) {
     float variance = bin.variance + bin.spread;
     float own = bin.variance / variance;
     float square = own * own;
     bin.own = square * square * square * square;
-    float deviation = exp(sqrt(varies));
     for (int i = 0; i < (BIN_WIDTHS ? 2 : 1); ++i) {
-        float one = bin.spread + (!BIN_WIDTHS ? bin.variance
-                                  : i == 0    ? bin.variance / (deviation * deviation)
-                                              : bin.variance * deviation * deviation);
-        bin.own_parameter[i] = parameter_of_plane_variance(distribution_kind(), one);
+        bin.own_parameter[i] =
+            parameter_of_plane_variance(distribution_kind(), bin.spread + halves[i]);
         bin.own_share[i] = (BIN_WIDTHS ? 0.5 : 1.0) * bin.mass /
                            plane_mass(MODEL, distribution_kind(), bin.own_parameter[i]);
     }
 }
 
-// The normals' Gaussian, convolved with the base lobes, of variances `base` at their median.
-void make_terms(inout plane_bin bin, vec3 covariance, vec3 base, float varies) {
+// The normals' Gaussian, convolved with the base lobes: of GGX of variances `base` at their median,
+// else of two halves.
+void make_terms(inout plane_bin bin, vec3 covariance, vec3 base, vec2 halves, float varies) {
     vec4 weight, spread;
     if (distribution_kind() == DISTRIBUTION_GGX) {
         weight = tail_weight(varies);
         spread = tail_spread(varies);
     } else {
-        float factor = exp(2.0 * sqrt(varies));
         weight = vec4(BIN_WIDTHS ? 0.5 : 1.0);
-        spread = vec4(1.0 / factor, factor, 1.0, 1.0);
+        spread = vec4(halves / bin.variance, 1.0, 1.0);
     }
     for (int i = 0; i < term_count(); ++i)
         bin.terms[i] = make_plane_gaussian(covariance + spread[i] * base, weight[i] * bin.mass);

@@ -112,6 +112,7 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
 typedef struct bin {
     double mass, mean[2], covariance[3]; ///< of the lobes' places
     double sharpness, variance, varies;  ///< of the base lobes: mean, median; of its logarithm
+    double halves[2];                    ///< variances of two that have the means, each of half
     bool widths;                         ///< base lobes differ in width
     double mean_variance;
     double base[3]; ///< their covariance at the mean place
@@ -119,18 +120,14 @@ typedef struct bin {
     double dielectric; ///< the part that is not metal
 } bin;
 
-/// GGX: deviations vary log-normally, exp(n m + n^2 varies / 2) is the mean of their power n.
-/// Others: two deviations of equal weight have both means.
+/// Two deviations of equal weight have both means; those of GGX vary log-normally as well,
+/// exp(n m + n^2 varies / 2) is the mean of their power n, of which the second is kept where they
+/// vary by more than they may.
 static void find_widths(bin *b, double mean_variance, lobe_distribution distribution) {
-    b->variance = 1 / (b->sharpness * b->sharpness);
+    b->variance = b->halves[0] = b->halves[1] = 1 / (b->sharpness * b->sharpness);
     if (!b->widths)
         return;
     const double ratio = fmax(mean_variance / b->variance, 1);
-    if (distribution == LOBE_DISTRIBUTION_GGX) {
-        b->varies = fmin(log(ratio) / 3, 0.64);
-        b->variance *= exp(b->varies);
-        return;
-    }
     // cosh(2 s) cosh(s)^2 = ratio
     double low = 0, high = 6;
     for (int i = 0; i < 60; i++) {
@@ -140,8 +137,15 @@ static void find_widths(bin *b, double mean_variance, lobe_distribution distribu
         else
             high = s;
     }
-    b->varies = low * low;
-    b->variance *= cosh(low) * cosh(low);
+    const double middle = b->variance * cosh(low) * cosh(low);
+    b->halves[0] = middle * exp(-2 * low);
+    b->halves[1] = middle * exp(2 * low);
+    if (distribution == LOBE_DISTRIBUTION_GGX) {
+        b->varies = fmin(log(ratio) / 3, 0.64);
+        b->variance *= ratio * exp(-2 * b->varies);
+    } else {
+        b->variance = middle;
+    }
 }
 
 static bin read_bin(const lobe_material *material, const reference_moment_bins *partition,
@@ -212,15 +216,13 @@ static void add_bell(const bin *b, double weight, double scale, const double d[2
 /// Of GGX, Student's tail by four Gaussians; of other lobes, two for the two halves of their
 /// widths.
 static bell_sum bells(const bin *b, lobe_distribution distribution, const double d[2]) {
-    double weights[4], spreads[4], factor = exp(2 * sqrt(b->varies));
+    double weights[4], spreads[4];
     bell_sum sum = {0};
     reference_plane_tail(b->varies, weights, spreads);
     for (int i = 0; i < 4 && distribution == LOBE_DISTRIBUTION_GGX; i++)
         add_bell(b, weights[i], spreads[i], d, &sum);
-    if (distribution != LOBE_DISTRIBUTION_GGX) {
-        add_bell(b, 0.5, factor, d, &sum);
-        add_bell(b, 0.5, 1 / factor, d, &sum);
-    }
+    for (int i = 0; i < 2 && distribution != LOBE_DISTRIBUTION_GGX; i++)
+        add_bell(b, 0.5, b->halves[i] / b->variance, d, &sum);
     for (int i = 0; i < 3 && sum.value > 0; i++)
         sum.inverse[i] /= sum.value;
     return sum;
@@ -272,9 +274,8 @@ static double ggx_beyond_plane(const bin *b, const double place[2], const double
 static double with_own_shape(const lobe_material *material, const bin *b, double value,
                              const double half_vector[3]) {
     double own = pow(b->variance / (b->variance + half_trace(b)), 8);
-    double factor = exp(2 * sqrt(b->varies));
-    double shape = 0.5 * (own_shape(material, b, b->variance / factor, half_vector) +
-                          own_shape(material, b, b->variance * factor, half_vector));
+    double shape = 0.5 * (own_shape(material, b, b->halves[0], half_vector) +
+                          own_shape(material, b, b->halves[1], half_vector));
     return own * shape + (1 - own) * value;
 }
 

@@ -175,6 +175,29 @@ static void one_bin_has_several_widths(void **state) {
     check_plane(*state, &p, degrees, 6, 0.05);
 }
 
+/// Polish beside rough patches: a bin has either, and nothing between.
+static void one_bin_has_polish_and_rough_patches(void **state) {
+    static const texel_kind kinds[] = {
+        {0, 0.1f, 1, {1, 1, 1}, TEXELS / 2},
+        {0, 0.7f, 1, {1, 1, 1}, TEXELS / 2},
+    };
+    static const double degrees[] = {0, 6, 12, 25};
+    const plane p = {kinds, 2, "bins=1", {1, 1, 1}};
+    check_plane(*state, &p, degrees, 4, 0.2);
+}
+
+/// Far from the highlights of normals that differ, only the roughest texels are seen.
+static void few_rough_texels_are_seen_far_from_highlights(void **state) {
+    static const texel_kind kinds[] = {
+        {-12, 0.1f, 1, {1, 1, 1}, TEXELS / 16},  {-12, 0.5f, 1, {1, 1, 1}, TEXELS / 16},
+        {0, 0.1f, 1, {1, 1, 1}, TEXELS * 3 / 8}, {0, 0.5f, 1, {1, 1, 1}, TEXELS * 3 / 8},
+        {12, 0.1f, 1, {1, 1, 1}, TEXELS / 16},   {12, 0.5f, 1, {1, 1, 1}, TEXELS / 16},
+    };
+    static const double degrees[] = {30, 35, 40};
+    const plane p = {kinds, 6, "bins=1", {1, 1, 1}};
+    check_plane(*state, &p, degrees, 3, 0.3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_steep_texels_leave_the_polish),
@@ -182,6 +205,8 @@ int main(void) {
         cmocka_unit_test(two_sides_have_their_own_cosines),
         cmocka_unit_test(meshes_tint_metal),
         cmocka_unit_test(one_bin_has_several_widths),
+        cmocka_unit_test(one_bin_has_polish_and_rough_patches),
+        cmocka_unit_test(few_rough_texels_are_seen_far_from_highlights),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
