@@ -215,8 +215,8 @@ static void release(tangent_work *work) {
 
 static bool weld_corners(const lobe_allocator *allocator, tangent_work *work) {
     uint32_t *welded = lobe_allocate(allocator, work->mesh->vertex_count, sizeof *welded);
-    bool done =
-        welded && scenes_mesh_weld(allocator, work->mesh, work->use->texture_coordinates, welded);
+    bool done = welded && scenes_mesh_weld(allocator, work->mesh, work->use->texture_coordinates,
+                                           false, welded);
     if (done)
         measure_triangles(work, welded);
     lobe_release(welded);

@@ -26,6 +26,7 @@ typedef struct target_work {
     uint32_t *deltas;                  // numbers of deltas, by targets
     uint32_t *vertices;                // of each delta
     uint32_t *welded;                  // of each vertex
+    uint32_t *groups;                  // of each vertex, the first welded one of the same tangent
     uint32_t *first_corners, *corners; // of each welded vertex, in the same way
     uint32_t *moved, *changed;         // marks of welded vertices: by the target, or turned by it
     uint32_t *shared;                  // marks of triangles that have such a vertex
@@ -158,9 +159,9 @@ static void close_part(target_work *work, target_part *part) {
 // ---------------------------------------------------------------------------------------------
 // The target's shape
 
-// The vertex of the part that stands for all that are welded to vertex `i`.
-static uint32_t welded_in_part(const target_work *work, const target_part *part, uint32_t i) {
-    const uint32_t place = work->places[work->welded[part->whole[i]]];
+// The vertex of the part that stands for all that share vertex `i`'s tangent at rest.
+static uint32_t shared_in_part(const target_work *work, const target_part *part, uint32_t i) {
+    const uint32_t place = work->places[work->groups[part->whole[i]]];
     return place > 0 ? place - 1 : i;
 }
 
@@ -172,13 +173,13 @@ static bool measure_lengths(const target_work *work, const target_part *part, do
     for (uint32_t first = 0; sums && first + 2 < mesh->index_count; first += 3) {
         const triangle_mapping mapping = scenes_mesh_map_triangle(mesh, work->use, first);
         const vector3 along = vector3_scale(mapping.along, mapping.area < 0 ? -1 : 1);
-        for (uint32_t k = first; k < first + 3; k++) {
-            vector3 *sum = &sums[welded_in_part(work, part, mesh->indices[k])];
+        for (uint32_t k = first; mapping.area != 0 && k < first + 3; k++) {
+            vector3 *sum = &sums[shared_in_part(work, part, mesh->indices[k])];
             *sum = vector3_add(*sum, along);
         }
     }
     for (uint32_t i = 0; sums && i < mesh->vertex_count; i++)
-        lengths[i] = vector3_length(sums[welded_in_part(work, part, i)]);
+        lengths[i] = vector3_length(sums[shared_in_part(work, part, i)]);
     lobe_release(sums);
     return sums != NULL;
 }
@@ -239,17 +240,22 @@ static lobe_result turn_vertex(target_work *work, uint32_t target, uint32_t vert
                                                                     : append(work, vertex, delta);
 }
 
+// Where a shape has no length along u, its tangent is any: the other's outweighs it in between.
+static double stretch_between(double rest, double target) {
+    const double stretch = target / rest;
+    return isnan(stretch) ? 1 : fmin(fmax(stretch, 1e-3), 1e3);
+}
+
 // Vertices that splitting appends to the part are copies with other tangents.
 static lobe_result turn_vertices(target_work *work, uint32_t target, const target_part *part,
                                  const double *lengths, size_t count) {
     lobe_result result = LOBE_OK;
     for (size_t i = 0; result == LOBE_OK && i < count; i++) {
         const uint32_t vertex = part->whole[i];
-        const double stretch = lengths[i] / part->lengths[i];
         if (work->changed[work->welded[vertex]] == target + 1)
             result =
                 turn_vertex(work, target, vertex, part->deltas[i], part->mesh.vertices[i].tangent,
-                            stretch > 1e-3 && stretch < 1e3 ? stretch : 1);
+                            stretch_between(part->lengths[i], lengths[i]));
     }
     return result;
 }
@@ -325,6 +331,7 @@ static bool allocate(target_work *work) {
                   {&work->deltas, deltas},
                   {&work->vertices, deltas},
                   {&work->welded, vertices},
+                  {&work->groups, vertices},
                   {&work->first_corners, vertices + 2},
                   {&work->corners, corners},
                   {&work->moved, vertices},
@@ -340,9 +347,10 @@ static bool allocate(target_work *work) {
 }
 
 static void release(target_work *work) {
-    void *const all[] = {work->first_deltas,  work->deltas,  work->vertices, work->welded,
-                         work->first_corners, work->corners, work->moved,    work->changed,
-                         work->shared,        work->places,  work->added,    work->added_vertices};
+    void *const all[] = {work->first_deltas,  work->deltas,        work->vertices, work->welded,
+                         work->groups,        work->first_corners, work->corners,  work->moved,
+                         work->changed,       work->shared,        work->places,   work->added,
+                         work->added_vertices};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         lobe_release(all[i]);
 }
@@ -389,8 +397,9 @@ static lobe_result compute_targets(target_work *work) {
     const lobe_allocator *allocator = lobe_host_allocator(work->host);
     uint32_t *scratch =
         lobe_allocate(allocator, deformation->delta_count + mesh->index_count, sizeof *scratch);
-    if (!scratch ||
-        !scenes_mesh_weld(allocator, mesh, work->use->texture_coordinates, work->welded)) {
+    const uint32_t set = work->use->texture_coordinates;
+    if (!scratch || !scenes_mesh_weld(allocator, mesh, set, false, work->welded) ||
+        !scenes_mesh_weld(allocator, mesh, set, true, work->groups)) {
         lobe_release(scratch);
         return out_of_memory(work);
     }
@@ -408,6 +417,9 @@ lobe_result scenes_mesh_compute_target_tangents(lobe_mesh *mesh, const lobe_text
     if (!mesh->deformation || mesh->deformation->delta_count == 0 ||
         use->texture_coordinates >= 2 || !mesh->has_texture_coordinates[use->texture_coordinates])
         return LOBE_OK;
+    // A file with broken tangents may have some for its targets: they belong to others than ours.
+    for (size_t i = 0; i < mesh->deformation->delta_count; i++)
+        memset(mesh->deformation->deltas[i].tangent, 0, sizeof mesh->deformation->deltas->tangent);
     lobe_result result = allocate(&work) ? compute_targets(&work) : out_of_memory(&work);
     if (result == LOBE_OK && !insert_added(&work))
         result = out_of_memory(&work);

@@ -4,15 +4,17 @@
 #include <string.h>
 
 typedef struct weld_key {
-    float values[8];
+    float values[12];
 } weld_key;
 
-static weld_key key_of(const lobe_scene_vertex *vertex, uint32_t set) {
-    weld_key key;
+static weld_key key_of(const lobe_scene_vertex *vertex, uint32_t set, bool tangents) {
+    weld_key key = {0};
     memcpy(key.values, vertex->position, sizeof vertex->position);
     memcpy(key.values + 3, vertex->normal, sizeof vertex->normal);
     memcpy(key.values + 6, vertex->texture_coordinates[set], sizeof vertex->texture_coordinates[0]);
-    for (int i = 0; i < 8; i++)
+    if (tangents)
+        memcpy(key.values + 8, vertex->tangent, sizeof vertex->tangent);
+    for (int i = 0; i < 12; i++)
         key.values[i] += 0.0f; // -0 equals 0, and must have its bits
     return key;
 }
@@ -21,7 +23,7 @@ static weld_key key_of(const lobe_scene_vertex *vertex, uint32_t set) {
 // mixing function for each number.
 static size_t hash_of(const weld_key *key) {
     uint64_t hash = 0;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 12; i++) {
         uint32_t bits;
         memcpy(&bits, &key->values[i], sizeof bits);
         hash = (hash ^ bits) * 0xbf58476d1ce4e5b9u;
@@ -38,14 +40,14 @@ static size_t table_size(size_t vertex_count) {
 }
 
 bool scenes_mesh_weld(const lobe_allocator *allocator, const lobe_mesh *mesh, uint32_t set,
-                      uint32_t *welded) {
+                      bool tangents, uint32_t *welded) {
     size_t size = table_size(mesh->vertex_count);
     uint32_t *table = lobe_allocate(allocator, size, sizeof *table); // a vertex plus one; 0: none
     for (size_t i = 0; table && i < mesh->vertex_count; i++) {
-        weld_key key = key_of(&mesh->vertices[i], set);
+        weld_key key = key_of(&mesh->vertices[i], set, tangents);
         size_t slot = hash_of(&key) & (size - 1);
         for (; table[slot] != 0; slot = (slot + 1) & (size - 1)) {
-            weld_key other = key_of(&mesh->vertices[table[slot] - 1], set);
+            weld_key other = key_of(&mesh->vertices[table[slot] - 1], set, tangents);
             if (memcmp(&key, &other, sizeof key) == 0)
                 break;
         }

@@ -7,10 +7,10 @@
 #include <lobe/host.h>
 #include <lobe/scene.h>
 
-/// Finds the vertices that differ in nothing but number: of equal position, normal and set `set` of
-/// texture coordinates. `welded[i]` becomes the first vertex equal to vertex i. False if memory
-/// ends.
+/// Finds the vertices that differ in nothing but number: of equal position, normal, set `set` of
+/// texture coordinates and, with `tangents`, tangent. `welded[i]` becomes the first vertex equal to
+/// vertex i. False if memory ends.
 bool scenes_mesh_weld(const lobe_allocator *allocator, const lobe_mesh *mesh, uint32_t set,
-                      uint32_t *welded);
+                      bool tangents, uint32_t *welded);
 
 #endif
