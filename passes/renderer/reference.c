@@ -131,21 +131,40 @@ static lobe_result render_mean(rendering *r, const frame_delivery *delivery,
 // ---------------------------------------------------------------------------------------------
 // The mean in the host's image
 
+/// Adds the passes that draw the mean, RGBA of each pixel, into the target.
+static void declare_mean(const rendering *r, const frame_delivery *delivery,
+                         const delivery_target *imported, const float *texels) {
+    lobe_graph *graph = r->renderer->graph;
+    shading_targets targets = {.width = r->width, .height = r->height};
+    passes_delivery_replace(imported, &targets);
+    passes_picture_drawing(graph, texels, &targets);
+    passes_delivery_place(r, delivery, imported, &targets);
+    lobe_graph_output(graph, targets.radiance);
+}
+
 /// Takes over the target's extent, and reports errors in it, before any sample is taken.
 static lobe_result measure_target(rendering *r, const frame_delivery *delivery) {
+    lobe_graph *graph = r->renderer->graph;
     delivery_target imported;
-    lobe_graph_begin(r->renderer->graph);
+    lobe_image black;
+    lobe_graph_begin(graph);
     lobe_result result = passes_delivery_import(r, delivery, &imported);
     // An error in the image itself stays in the graph, until it is compiled.
-    return result == LOBE_OK && imported.drawn.width == 0 ? lobe_graph_compile(r->renderer->graph)
-                                                          : result;
+    if (result != LOBE_OK || imported.drawn.width == 0)
+        return result ? result : lobe_graph_compile(graph);
+    result =
+        lobe_image_allocate(&black, LOBE_FORMAT_RGBA32_FLOAT, r->width, r->height, r->context.host);
+    if (result != LOBE_OK)
+        return result;
+    declare_mean(r, delivery, &imported, black.texels);
+    lobe_image_free(&black);
+    return lobe_graph_prepare(graph, NULL, NULL);
 }
 
 /// Draws the mean into the target instead of delivering it.
 static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_frame *frame) {
     lobe_graph *graph = r->renderer->graph;
     delivery_target imported;
-    shading_targets targets = {.width = r->width, .height = r->height};
     lobe_graph_set_frames_in_flight(graph, r->parameters->host.frames_in_flight);
     lobe_graph_begin(graph);
     lobe_result result = passes_delivery_import(r, delivery, &imported);
@@ -155,10 +174,7 @@ static lobe_result draw_mean(rendering *r, const frame_delivery *delivery, lobe_
     passes_instances_list(r);
     passes_instance_maps_build(r, NULL, frame);
     (void)passes_shading_light_prepare(&r->context, &r->environment);
-    passes_delivery_replace(&imported, &targets);
-    passes_picture_drawing(graph, frame->radiance.texels, &targets);
-    passes_delivery_place(r, delivery, &imported, &targets);
-    lobe_graph_output(graph, targets.radiance);
+    declare_mean(r, delivery, &imported, frame->radiance.texels);
     lobe_image_free(&frame->radiance);
     return passes_delivery_run(r, delivery, frame);
 }

@@ -314,6 +314,25 @@ static void assert_refused(host_fixture *f, const lobe_render_parameters *parame
         fail_msg("%s", f->host.recorder.last_error);
 }
 
+static bool count_calls(void *user, double part) {
+    (void)part;
+    ++*(unsigned *)user;
+    return true;
+}
+
+/// Before it takes any of its samples.
+static void the_reference_refuses_at_once(host_fixture *f, const lobe_render_target *target) {
+    unsigned calls = 0;
+    const lobe_render_target alone = {.radiance = target->radiance, .viewport = target->viewport};
+    assert_refused(f,
+                   &(lobe_render_parameters){
+                       .filter = filter_named("reference"),
+                       .reference.samples = 2,
+                       .host = {.target = &alone, .progress = count_calls, .user = &calls}},
+                   LOBE_ERROR_GRAPH, "transfer destination");
+    assert_int_equal(calls, 0);
+}
+
 static void mistakes_are_refused(void **state) {
     static const lobe_rectangle beyond[] = {{30, 0, 8, 8}, {0, 20, 8, 7},         {0, 0, 38, 26},
                                             {37, 0, 1, 1}, {UINT32_MAX, 0, 2, 2}, {4, 4, 0, 0},
@@ -337,6 +356,7 @@ static void mistakes_are_refused(void **state) {
     parameters.width = 0;
     whole.lent[RADIANCE].usage &= ~(VkImageUsageFlags)VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     assert_refused(f, &parameters, LOBE_ERROR_GRAPH, "transfer destination");
+    the_reference_refuses_at_once(f, &whole.target);
     whole.lent[RADIANCE].usage = transfers; // it is only copied to
     render(f, f->passes.renderer, &parameters);
     destroy_targets(f, &whole);
