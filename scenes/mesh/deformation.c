@@ -80,3 +80,48 @@ bool scenes_deformation_copy_vertices(lobe_mesh *mesh, const uint32_t *origins, 
     return !mesh->deformation ||
            (copy_influences(mesh, origins, count) && copy_deltas(mesh, origins, count));
 }
+
+// Copies the deltas of each vertex, and leaves room for those that are added behind them. The room
+// of vertex i ends before ends[i + 1], which is at first how many are added.
+static void spread_deltas(const lobe_mesh *mesh, lobe_morph_delta *deltas, uint32_t *ends,
+                          uint32_t *next) {
+    const lobe_deformation *deformation = mesh->deformation;
+    for (size_t i = 0; i < mesh->vertex_count; i++) {
+        const uint32_t first = deformation->first_deltas[i];
+        const uint32_t own = deformation->first_deltas[i + 1] - first;
+        memcpy(deltas + ends[i], deformation->deltas + first, own * sizeof *deltas);
+        next[i] = ends[i] + own;
+        ends[i + 1] += next[i];
+    }
+}
+
+bool scenes_deformation_add_deltas(lobe_mesh *mesh, const lobe_morph_delta *added,
+                                   const uint32_t *vertices, size_t count,
+                                   const lobe_allocator *allocator) {
+    lobe_deformation *deformation = mesh->deformation;
+    const size_t sum = deformation->delta_count + count;
+    if (count == 0)
+        return true;
+    uint32_t *ends = lobe_allocate(allocator, mesh->vertex_count + 1, sizeof *ends);
+    uint32_t *next = lobe_allocate(allocator, mesh->vertex_count, sizeof *next);
+    lobe_morph_delta *deltas =
+        sum <= UINT32_MAX ? lobe_allocate(allocator, sum, sizeof *deltas) : NULL;
+    const bool done = ends && next && deltas;
+    if (done) {
+        for (size_t i = 0; i < count; i++)
+            ends[vertices[i] + 1]++;
+        spread_deltas(mesh, deltas, ends, next);
+        for (size_t i = 0; i < count; i++)
+            deltas[next[vertices[i]]++] = added[i];
+        lobe_release(deformation->deltas);
+        lobe_release(deformation->first_deltas);
+        deformation->deltas = deltas;
+        deformation->first_deltas = ends;
+        deformation->delta_count = sum;
+    } else {
+        lobe_release(deltas);
+        lobe_release(ends);
+    }
+    lobe_release(next);
+    return done;
+}

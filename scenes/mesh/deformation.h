@@ -13,4 +13,10 @@ void scenes_deformation_free(lobe_deformation **deformation);
 /// changed that counts, if memory runs out.
 bool scenes_deformation_copy_vertices(lobe_mesh *mesh, const uint32_t *origins, size_t count);
 
+/// Adds a delta to each of `vertices`, after those that it has; a vertex may occur several times.
+/// False, with nothing changed, if memory ends.
+bool scenes_deformation_add_deltas(lobe_mesh *mesh, const lobe_morph_delta *added,
+                                   const uint32_t *vertices, size_t count,
+                                   const lobe_allocator *allocator);
+
 #endif
