@@ -27,6 +27,8 @@ layout(set = 0, binding = 9, r32f) uniform writeonly image2D low_map;
 const float SMOOTHNESS = 0.01; // w
 const int STEPS = 256;
 const float TOLERANCE = 1e-12; // of the square of the residual
+// Slopes that are this small on average count as so large: of level cells no search would end.
+const float LEAST_SLOPE = 1e-3;
 
 shared float partial[THREADS];
 
@@ -109,7 +111,7 @@ float square_of_targets(int count) {
     float sum = 0.0;
     for (int i = int(gl_LocalInvocationIndex); i < count; i += int(THREADS))
         sum += dot(slopes[i], slopes[i]);
-    return sum_of_all(sum);
+    return max(sum_of_all(sum), LEAST_SLOPE * LEAST_SLOPE * float(count));
 }
 
 float square_of_residual(int count) {
