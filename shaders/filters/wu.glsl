@@ -135,10 +135,10 @@ float mirror_scaling_of_cell(uint level_index, uint cell) {
     uint first = level_index * mirror_stride() + directions * directions;
     patch_range range = patches_of_cell(level_index, cell);
     vec2 sum = vec2(0.0);
-    for (uint y = range.first.y; y <= range.last.y; ++y)
-        for (uint x = range.first.x; x <= range.last.x; ++x) {
-            uint place = first + 2u * (y * wu.patches + x);
-            sum += vec2(mirrors[place], mirrors[place + 1u]);
+    for (int y = range.first.y; y <= range.last.y; ++y)
+        for (int x = range.first.x; x <= range.last.x; ++x) {
+            uint place = first + 2u * patch_index(ivec2(x, y));
+            sum += patch_weight(range, ivec2(x, y)) * vec2(mirrors[place], mirrors[place + 1u]);
         }
     return sum.y > 0.0 ? sum.x / sum.y : 1.0;
 }
@@ -158,44 +158,74 @@ const int MOST_LIGHTS = 6 * LIGHT_WIDTH * LIGHT_WIDTH;
 const int MOST_LIGHTS = 4;
 #endif
 
+// Below a table's lowest directions S says nothing, while the part of the relief that is seen goes
+// on to fall with the height: what is seen from there is what the table's lowest direction sees, by
+// the quotient of both heights.
+vec3 raised_into_table(vec3 direction) {
+    float height = lowest_height(wu.angular);
+    if (direction.z >= height)
+        return direction;
+    float level = max(length(direction.xy), 1e-6);
+    return vec3(direction.xy * (sqrt(1.0 - height * height) / level), height);
+}
+
+float part_below_table(vec3 direction) {
+    return clamp(direction.z / lowest_height(wu.angular), 0.0, 1.0);
+}
+
 // What a pixel's lights share. Of each light, towards the viewer, over the base's area: of white
 // facets at once, and by way of others, before the powers of the albedo.
 struct relief_footprint {
-    vec3 viewer;        // in the relief's frame
+    vec3 viewer;        // in the relief's frame, see raised_into_table
     vec3 outgoing;      // the same in the tangent frame
     float visible;      // the area that the viewer sees
     vec3 share;         // see indirect_share
     int lights;         // how many
-    vec3 towards[MOST_LIGHTS];
+    vec3 towards[MOST_LIGHTS]; // see raised_into_table
+    float parts[MOST_LIGHTS];  // see part_below_table
     vec3 direct[MOST_LIGHTS];
     vec3 indirect[MOST_LIGHTS];
-    light_sum mirrored[4]; // of the first lights
+    vec3 incoming[4];          // of the first lights, in the tangent frame
+    light_sum mirrored[4];     // of these
 };
 relief_footprint drawn;
 
-// Normals of a cell's lobes, times their weights and cosines to the viewer.
-vec4 facing[8u * WU_LOBES];
+void place_light(int light, vec3 incoming) {
+    vec3 towards = relief_from_tangent(incoming);
+    drawn.towards[light] = raised_into_table(towards);
+    drawn.parts[light] = part_below_table(towards);
+}
 
-float light_of_facing(vec3 light) {
-    float sum = 0.0;
+// Normals of a cell's lobes, and with them their weights times their cosines to the viewer.
+vec4 facing[8u * WU_LOBES];
+// Weights of a normal of each lobe.
+float weights[WU_LOBES];
+
+// What normals get of a light and show to the viewer, and what they get.
+vec2 light_of_facing(vec3 light) {
+    vec2 sum = vec2(0.0);
     for (uint i = 0u; i < 8u * WU_LOBES; ++i)
-        sum += facing[i].w * max(dot(facing[i].xyz, light), 0.0);
+        sum += vec2(facing[i].w, weights[i / 8u]) * max(dot(facing[i].xyz, light), 0.0);
     return sum;
 }
 
-void find_facing(uint cell) {
+// Returns what they show to the viewer, of light that they get from everywhere.
+float find_facing(uint cell) {
+    float sum = 0.0;
     for (uint i = 0u; i < WU_LOBES; ++i) {
         vec4 lobe = cells[cell].lobes[i];
         float weight = length(lobe.xyz);
-        lobe_normals normals =
-            normals_of_lobe(weight > 0.0 ? lobe.xyz / weight : vec3(0.0, 0.0, 1.0), lobe.w);
-        for (int k = 0; k < 8; ++k)
+        weights[i] = weight / (8.0 * PI);
+        lobe_normals normals = normals_of_weighted(lobe, weight);
+        for (int k = 0; k < 8; ++k) {
+            float shown = max(dot(normals.normals[k], drawn.viewer), 0.0);
+            sum += weight / 8.0 * shown;
             facing[8u * i + k] =
                 vec4(normals.normals[k],
-                     weight / (8.0 * PI) * (is_printed(WU_PRINTED_LOBES)
-                                                ? 1.0
-                                                : max(dot(normals.normals[k], drawn.viewer), 0.0)));
+                     weights[i] * (is_printed(WU_PRINTED_LOBES) ? 1.0 : shown));
+        }
     }
+    return sum;
 }
 
 // A lobe of normals with microfacets of this width, in the tangent frame.
@@ -219,18 +249,32 @@ plane_bin bin_of_lobe(vec4 lobe, vec3 curvature, float width) {
     return bin;
 }
 
+// How much less than S says is seen of facets that mirror, from a direction below the table: of
+// steep ones in proportion to the height, of level ones no less, as these turn away by themselves.
+float mirrors_below_table(vec3 direction) {
+    float part = part_below_table(direction);
+    if (part >= 1.0)
+        return 1.0;
+    return min(part * light_of_facing(raised_into_table(direction)).y /
+                   max(light_of_facing(direction).y, 1e-9),
+               1.0);
+}
+
 // Wu et al., 2019, Eq. 18: T S f'_low, of microfacets.
 // `scaling`: of mirrors, for each light.
-void add_mirrored_light(uint level, uint cell, float weight, vec2 seen, float scaling[4],
+void add_mirrored_light(uint level, uint cell, float weight, seen_facets seen, float scaling[4],
                         surface_point surface, float width) {
-    float factor = weight * mirror_scaling_of_cell(level, cell), parts[4];
+    vec3 viewer = relief_from_tangent(drawn.outgoing);
+    float factor = weight * mirror_scaling_of_cell(level, cell) * mirrors_below_table(viewer) /
+                   part_below_table(viewer), parts[4];
     for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k)
-        parts[k] =
-            factor * scaling[k] * seen_by_both(seen, seen_areas(cell, drawn.towards[k]));
+        parts[k] = factor * scaling[k] *
+                   mirrors_below_table(relief_from_tangent(drawn.incoming[k])) *
+                   seen_by_both(seen, facets_seen(cell, drawn.towards[k]));
     for (uint i = 0u; i < WU_LOBES; ++i) {
         plane_bin bin = bin_of_lobe(cells[cell].lobes[i], surface.curvature, width);
         for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k) {
-            vec3 incoming = tangent_from_relief(drawn.towards[k]);
+            vec3 incoming = drawn.incoming[k];
             if (bin.mass > 0.0 && parts[k] > 0.0)
                 add_seen_bin(drawn.mirrored[k], bin, half_vector(incoming, drawn.outgoing),
                              drawn.outgoing, incoming, parts[k]);
@@ -255,20 +299,22 @@ void add_level(uint level, vec2 centre, float share, surface_point surface, floa
         float weight = share * covered.weights[i];
         if (weight <= 0.0)
             continue;
-        vec2 seen = seen_areas(cell, drawn.viewer);
-        drawn.visible += weight * 0.5 * (seen.x + seen.y);
-        if (seen.x + seen.y <= 0.0)
+        seen_facets seen = facets_seen(cell, drawn.viewer);
+        float area = 0.5 * (seen.areas.x + seen.areas.y);
+        drawn.visible += weight * area;
+        if (area <= 0.0)
             continue;
-        find_facing(cell);
+        float shown = part_seen(seen) * find_facing(cell);
         vec3 factor = weight * scaling_of_cell(cell, drawn.share);
         for (int k = 0; k < drawn.lights; ++k) {
-            vec2 lit = seen_areas(cell, drawn.towards[k]);
+            seen_facets lit = facets_seen(cell, drawn.towards[k]);
             float both = is_printed(WU_PRINTED_LOBES)
                              ? seen_by_both_printed(cell, seen, lit, drawn.towards[k].z)
                              : seen_by_both(seen, lit);
-            float light = both > 0.0 ? both * light_of_facing(drawn.towards[k]) : 0.0;
-            drawn.direct[k] += light * scaling[k].x * factor;
-            drawn.indirect[k] += light * scaling[k].y * factor;
+            vec2 light = vec2(both, shown * part_seen(lit)) * light_of_facing(drawn.towards[k]) *
+                         scaling[k];
+            drawn.direct[k] += light.x * factor;
+            drawn.indirect[k] += light.y * factor;
         }
         if (mirrors)
             add_mirrored_light(level, cell, weight, seen, mirror_scaling, surface, width);
@@ -279,7 +325,7 @@ void add_level(uint level, vec2 centre, float share, surface_point surface, floa
 // they mirror is not asked for.
 void gather_cells(appearance fetched, surface_point surface, float width) {
     drawn.outgoing = viewer_of(surface);
-    drawn.viewer = relief_from_tangent(drawn.outgoing);
+    drawn.viewer = raised_into_table(relief_from_tangent(drawn.outgoing));
     drawn.share = indirect_share(clamp(fetched.base.diffuse, 0.0, 1.0));
     drawn.visible = 0.0;
     for (int k = 0; k < drawn.lights; ++k)
@@ -298,8 +344,11 @@ void gather_cells(appearance fetched, surface_point surface, float width) {
     }
     float lacking = max(LEAST_VISIBLE * drawn.viewer.z - drawn.visible, 0.0);
     drawn.visible += lacking;
-    for (int k = 0; k < drawn.lights; ++k)
+    for (int k = 0; k < drawn.lights; ++k) {
         drawn.direct[k] += lacking * INVERSE_PI * drawn.towards[k].z;
+        drawn.direct[k] *= drawn.parts[k];
+        drawn.indirect[k] *= drawn.parts[k];
+    }
 }
 
 // Radiance of diffuse facets for irradiance 1 of a light. `mirrored`: the part of light that facets
@@ -322,8 +371,10 @@ void gather_lights(inout appearance fetched, surface_point surface, vec3 incomin
     if (!has_diffuse())
         return;
     drawn.lights = int(LIGHTS_AT_ONCE);
-    for (int k = 0; k < drawn.lights; ++k)
-        drawn.towards[k] = relief_from_tangent(incoming[k]);
+    for (int k = 0; k < drawn.lights; ++k) {
+        drawn.incoming[k] = incoming[k];
+        place_light(k, incoming[k]);
+    }
     gather_cells(fetched, surface, has_facets() ? fetched.base.width : 0.0);
 }
 
@@ -364,7 +415,7 @@ void find_lights(surface_point surface) {
         if (incoming.z <= 0.0)
             continue;
         float solid_angle = cube_texel_solid_angle(texel, size);
-        drawn.towards[drawn.lights] = relief_from_tangent(incoming);
+        place_light(drawn.lights, incoming);
         irradiances[drawn.lights] = texelFetch(environment_faces, ivec3(texel, face), level).rgb *
                                     (environment.intensity * solid_angle);
         cosines += solid_angle * incoming.z;
@@ -377,7 +428,7 @@ void find_lights(surface_point surface) {
 // Each lobe by the area of it that faces the viewer, and where both the viewer and the direction
 // that its mean facet mirrors see the coarse relief.
 vec3 mirrored_by_cell(uint level, uint cell, surface_point surface, base_material base) {
-    vec2 seen = seen_areas(cell, drawn.viewer);
+    seen_facets seen = facets_seen(cell, drawn.viewer);
     table_place outgoing = place_in_table(drawn.viewer);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < WU_LOBES; ++i) {
@@ -390,7 +441,7 @@ vec3 mirrored_by_cell(uint level, uint cell, surface_point surface, base_materia
         if (area * share <= 1e-4)
             continue;
         vec3 incoming = relief_from_tangent(reflect(-drawn.outgoing, normalize(normal)));
-        float both = seen_by_both(seen, seen_areas(cell, incoming));
+        float both = seen_by_both(seen, facets_seen(cell, incoming));
         if (both <= 0.0 || incoming.z <= 0.0)
             continue;
         float faces = mean_facing_cosine(normals, drawn.outgoing) / max(share, 1e-3);

@@ -6,7 +6,7 @@
 #include "passes/maps/kept/texels.h"
 
 /// Increment it whenever the same relief gets other models: old files are then no longer found.
-enum { MODELS_FILE_VERSION = 3 };
+enum { MODELS_FILE_VERSION = 4 };
 
 static uint64_t kind_digest(const wu_kind *kind) {
     const uint64_t numbers[] = {kind->lobes,   kind->angular, kind->patches, kind->points,

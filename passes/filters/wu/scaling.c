@@ -25,13 +25,36 @@ static lobe_resource add_low_light(const wu_build *build, uint32_t level) {
                       .one_way = one_way});
 }
 
-static void read_light(const wu_build *build, lobe_pass *pass, lobe_resource low) {
-    lobe_pass_read(pass, &(lobe_binding){.name = "direct_block", .resource = build->direct});
-    lobe_pass_read(pass, &(lobe_binding){.name = "indirect_block", .resource = build->indirect});
-    lobe_pass_read(pass, &(lobe_binding){.name = "low_pair_block", .resource = low});
+/// What cells get from one direction times what they get from another.
+static lobe_resource add_cell_light(const wu_build *build, uint32_t level) {
+    const uint32_t threads = passes_wu_path_count(build) * passes_wu_row(build);
+    lobe_pass *pass = passes_wu_pass(build, "cell_light");
+    lobe_pass_read(pass, &(lobe_binding){.name = "cell_block", .resource = build->models.cells});
+    const lobe_resource light = lobe_pass_write(
+        pass, &(lobe_binding){.name = "light_block",
+                              .resource = passes_wu_buffer(build, "light that cells get",
+                                                           (uint64_t)threads * sizeof(float))});
+    passes_wu_dispatch(build, pass, "filters/wu/cell_light.comp", (uint32_t[]){threads, 1},
+                       &(struct wu_step){.level = level});
+    return passes_wu_add_pairs(
+        build,
+        passes_wu_buffer(build, "light between facets of cells", passes_wu_pair_bytes(build)),
+        &(wu_samples){.left = light, .right = light, .count = build->models.constants.points});
 }
 
-static lobe_resource add_patches(wu_build *build, uint32_t level, lobe_resource low) {
+/// Of cells: light at once, and what light between facets is scaled from.
+typedef struct low_pairs {
+    lobe_resource direct, indirect;
+} low_pairs;
+
+static void read_light(const wu_build *build, lobe_pass *pass, low_pairs low) {
+    lobe_pass_read(pass, &(lobe_binding){.name = "direct_block", .resource = build->direct});
+    lobe_pass_read(pass, &(lobe_binding){.name = "indirect_block", .resource = build->indirect});
+    lobe_pass_read(pass, &(lobe_binding){.name = "low_pair_block", .resource = low.direct});
+    lobe_pass_read(pass, &(lobe_binding){.name = "cell_pair_block", .resource = low.indirect});
+}
+
+static lobe_resource add_patches(wu_build *build, uint32_t level, low_pairs low) {
     const uint32_t patches = build->models.constants.patches * build->models.constants.patches;
     lobe_pass *pass = passes_wu_pass(build, "scaling_patches");
     read_light(build, pass, low);
@@ -48,7 +71,7 @@ static lobe_resource add_patches(wu_build *build, uint32_t level, lobe_resource 
 
 void passes_wu_add_scaling(wu_build *build, uint32_t level) {
     const struct wu_level *cells = &build->models.constants.levels[level];
-    const lobe_resource low = add_low_light(build, level);
+    const low_pairs low = {add_low_light(build, level), add_cell_light(build, level)};
     lobe_pass *pass = passes_wu_pass(build, "scaling_table");
     read_light(build, pass, low);
     const lobe_binding ratios = {.name = "ratio_block", .resource = build->models.ratios};

@@ -37,33 +37,51 @@ uint mirror_stride() {
     return directions * directions + 2u * wu.patches * wu.patches;
 }
 
-// The patches that a cell covers, or is in.
+// The patches that a cell covers, or, if it is smaller than these, the two by two whose middles are
+// around its own, by their distances: a number for each patch would show the patches' borders.
 struct patch_range {
-    uvec2 first, last;
+    ivec2 first, last; // may lie beyond the map
+    vec2 between;
 };
 
 patch_range patches_of_cell(uint level_index, uint cell) {
     wu_level level = wu.levels[level_index];
     uint index = cell - level.first_cell;
-    uvec2 place = uvec2(index % level.width, index / level.width),
-          size = uvec2(level.width, level.height);
+    ivec2 place = ivec2(index % level.width, index / level.width),
+          size = ivec2(level.width, level.height);
+    int patches = int(wu.patches);
     patch_range range;
     for (int k = 0; k < 2; ++k) {
-        bool within = size[k] >= wu.patches;
-        range.first[k] = within ? (2u * place[k] + 1u) * wu.patches / (2u * size[k])
-                                : place[k] * wu.patches / size[k];
-        range.last[k] = within ? range.first[k]
-                               : ((place[k] + 1u) * wu.patches + size[k] - 1u) / size[k] - 1u;
+        bool within = size[k] >= patches;
+        float middle = (float(place[k]) + 0.5) * float(patches) / float(size[k]) - 0.5;
+        range.first[k] = within ? int(floor(middle)) : place[k] * patches / size[k];
+        range.last[k] = within ? range.first[k] + 1
+                               : ((place[k] + 1) * patches + size[k] - 1) / size[k] - 1;
+        range.between[k] = within ? fract(middle) : 0.5;
     }
     return range;
+}
+
+uint patch_index(ivec2 place) {
+    ivec2 wrapped = (place + int(wu.patches)) % int(wu.patches);
+    return uint(wrapped.y) * wu.patches + uint(wrapped.x);
+}
+
+float patch_weight(patch_range range, ivec2 place) {
+    vec2 weights = mix(1.0 - range.between, range.between, greaterThan(place, range.first));
+    return weights.x * weights.y;
 }
 
 // ---------------------------------------------------------------------------------------------
 // Visibility of the coarse relief
 
-// The area of both facets of a cell that is seen from a direction, over that of the cell's base.
-// 0: nothing is seen.
-vec2 seen_areas(uint cell, vec3 direction) {
+// What a direction sees of both facets of a cell.
+struct seen_facets {
+    vec2 parts; // of each facet
+    vec2 areas; // of these parts as they appear from there, over that of the cell's base
+};
+
+seen_facets facets_seen(uint cell, vec3 direction) {
     vec4 slopes = cells[cell].slopes;
     vec2 areas = direction.z - vec2(dot(slopes.xy, direction.xy), dot(slopes.zw, direction.xy));
     float place = atan(direction.y, direction.x) * (float(WU_AZIMUTHS) / (2.0 * PI));
@@ -71,24 +89,29 @@ vec2 seen_areas(uint cell, vec3 direction) {
         place = 0.0;
     place += place < 0.0 ? float(WU_AZIMUTHS) : 0.0;
     uint first = min(uint(place), uint(WU_AZIMUTHS - 1)), next = (first + 1u) % WU_AZIMUTHS;
-    vec2 horizon = mix(unpackHalf2x16(cells[cell].horizons[first]),
-                       unpackHalf2x16(cells[cell].horizons[next]), fract(place));
-    vec2 above = direction.z - horizon * length(direction.xy);
-    return vec2(above.x > 0.0 ? max(areas.x, 0.0) : 0.0, above.y > 0.0 ? max(areas.y, 0.0) : 0.0);
+    vec4 horizons = mix(unpackUnorm4x8(cells[cell].horizons[first]),
+                        unpackUnorm4x8(cells[cell].horizons[next]), fract(place));
+    vec2 parts = clamp((direction.z - horizons.xz) / max(horizons.yw - horizons.xz, 1e-4), 0.0,
+                       1.0);
+    return seen_facets(parts, parts * max(areas, 0.0));
 }
 
-// The part of a cell that both directions see.
-float seen_by_both(vec2 areas, vec2 others) {
-    return 0.5 * ((areas.x > 0.0 && others.x > 0.0 ? 1.0 : 0.0) +
-                  (areas.y > 0.0 && others.y > 0.0 ? 1.0 : 0.0));
+float part_seen(seen_facets seen) {
+    return 0.5 * (seen.parts.x + seen.parts.y);
+}
+
+// The part of a cell that both directions see: what is high is seen by both.
+float seen_by_both(seen_facets one, seen_facets other) {
+    vec2 both = min(one.parts, other.parts);
+    return 0.5 * (both.x + both.y);
 }
 
 // The same for Eq. 5 as it is printed: light on the coarse relief's facets, by their areas that the
 // viewer sees, over the cosine to the base.
-float seen_by_both_printed(uint cell, vec2 seen, vec2 lit, float cosine) {
+float seen_by_both_printed(uint cell, seen_facets seen, seen_facets lit, float cosine) {
     vec4 slopes = cells[cell].slopes;
     vec2 normals = inversesqrt(1.0 + vec2(dot(slopes.xy, slopes.xy), dot(slopes.zw, slopes.zw)));
-    return 0.5 * dot(seen * lit, normals) / max(cosine, 1e-3);
+    return 0.5 * dot(seen.areas * lit.areas, normals) / max(cosine, 1e-3);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -131,6 +154,11 @@ lobe_normals normals_of_lobe(vec3 axis, float concentration) {
         }
     }
     return result;
+}
+
+// Of a lobe as cells keep it.
+lobe_normals normals_of_weighted(vec4 lobe, float weight) {
+    return normals_of_lobe(weight > 0.0 ? lobe.xyz / weight : vec3(0.0, 0.0, 1.0), lobe.w);
 }
 
 #endif

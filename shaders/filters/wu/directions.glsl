@@ -32,6 +32,12 @@ vec2 square_of_direction(vec3 direction) {
                           : radius * vec2(2.0 + quarters, -1.0);
 }
 
+// The height of the lowest directions of a table.
+float lowest_height(uint count) {
+    float radius = 1.0 - 1.0 / float(count);
+    return 1.0 - radius * radius;
+}
+
 // The middle of a square of `count` x `count`, row by row.
 vec3 direction_of_index(uint index, uint count) {
     vec2 place = vec2(index % count, index / count) + 0.5;

@@ -52,14 +52,15 @@ void main() {
         which < direction_count() ? direction_of_index(which, wu.angular) : vec3(0.0);
     float total = weight_of_lobes(cell);
     vec3 normal = drawn_normal(cell, total, hash(index));
-    vec2 areas = seen_areas(cell, direction);
-    float area = (index & 1u) == 0u ? areas.x : areas.y;
+    seen_facets seen = facets_seen(cell, direction);
+    uint facet = index & 1u;
     float light = max(dot(normal, direction), 0.0);
     if (!is_printed(WU_PRINTED_LOBES)) {
-        first[place] = area > 0.0 ? sqrt(total) * light : 0.0;
+        first[place] = seen.parts[facet] > depth_in_facet(index) ? sqrt(total) * light : 0.0;
         return;
     }
-    vec2 slope = (index & 1u) == 0u ? cells[cell].slopes.xy : cells[cell].slopes.zw;
+    vec2 slope = facet == 0u ? cells[cell].slopes.xy : cells[cell].slopes.zw;
+    float area = seen.areas[facet];
     first[place] =
         total * light * area * inversesqrt(1.0 + dot(slope, slope)) / max(direction.z, 1e-3);
     second[place] = area;

@@ -20,10 +20,12 @@ void main() {
     if (index >= path_count())
         return;
     uint cell = cell_at(wu.levels[stage.level], path_start(index)), word = 0u;
+    float depth = depth_in_facet(index);
     vec4 light = first[gl_GlobalInvocationID.x];
     for (uint i = 0u; i < 4u; ++i) {
-        vec2 areas = seen_areas(cell, direction_at(4u * place + i));
-        uint seen = (areas.x > 0.0 ? WU_SEES_LOWER : 0u) + (areas.y > 0.0 ? WU_SEES_UPPER : 0u) +
+        vec2 parts = facets_seen(cell, direction_at(4u * place + i)).parts;
+        uint seen = (parts.x > depth ? WU_SEES_LOWER : 0u) +
+                    (parts.y > depth ? WU_SEES_UPPER : 0u) +
                     (light[i] > 0.0 ? WU_SEES_FACET : 0u);
         word |= seen << (WU_SIGHT_BITS * i);
     }

@@ -40,4 +40,10 @@ vec2 path_start(uint index) {
     return (corner + inside) * vec2(wu.width, wu.height) / float(wu.patches);
 }
 
+// How deep a sample lies in its facet of a coarse relief: the part of this that is higher. Two
+// directions see it, if both see more than this part.
+float depth_in_facet(uint sample_index) {
+    return hashed_number(hash(sample_index) + 3u);
+}
+
 #endif

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Gives each cell the T of its patch, or of all patches that it covers. A thread a cell.
+// Gives each cell the T of the patches around it, or of all patches that it covers. A
+// thread a cell.
 
 #define CELL_ACCESS
 #include "filters/wu/cells.glsl"
@@ -28,11 +29,12 @@ void main() {
     vec4 mean = mean_numerator();
     patch_range range = patches_of_cell(stage.level, level.first_cell + index);
     vec4 numerator = vec4(0.0), denominator = vec4(0.0);
-    for (uint y = range.first.y; y <= range.last.y; ++y)
-        for (uint x = range.first.x; x <= range.last.x; ++x) {
-            numerator += quotients[2u * (y * wu.patches + x)];
-            denominator += is_printed(WU_PRINTED_RATIO) ? mean
-                                                        : quotients[2u * (y * wu.patches + x) + 1u];
+    for (int y = range.first.y; y <= range.last.y; ++y)
+        for (int x = range.first.x; x <= range.last.x; ++x) {
+            uint place = 2u * patch_index(ivec2(x, y));
+            float weight = patch_weight(range, ivec2(x, y));
+            numerator += weight * quotients[place];
+            denominator += weight * (is_printed(WU_PRINTED_RATIO) ? mean : quotients[place + 1u]);
         }
     cells[level.first_cell + index].numerator = numerator;
     cells[level.first_cell + index].denominator = denominator;

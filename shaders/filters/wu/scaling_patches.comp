@@ -17,6 +17,7 @@ layout(push_constant) uniform step_block { wu_step stage; };
 layout(set = 0, binding = 4, std430) readonly buffer direct_block { float direct[]; };
 layout(set = 0, binding = 5, std430) readonly buffer indirect_block { float indirect[]; };
 layout(set = 0, binding = 6, std430) readonly buffer low_pair_block { float low_pairs[]; };
+layout(set = 0, binding = 9, std430) readonly buffer cell_pair_block { float cell_pairs[]; };
 layout(set = 0, binding = 7, std430) readonly buffer ratio_block { vec2 ratios[]; };
 // Two for each patch: numerator, denominator.
 layout(set = 0, binding = 8, std430) writeonly buffer patch_block { vec4 quotients[]; };
@@ -34,7 +35,7 @@ void main() {
                        direction_of_index(i % directions, wu.angular).z;
         uint place = patch_index * pairs + i;
         vec2 light = vec2(direct[place], indirect[place]);
-        float low = low_pairs[place];
+        vec2 low = vec2(low_pairs[place], cell_pairs[place]);
         if (is_printed(WU_PRINTED_RATIO)) {
             numerator.xy += weight * min(light / (low + PRINTED), LARGEST_RATIO);
             continue;

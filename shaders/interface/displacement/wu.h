@@ -78,8 +78,8 @@ struct wu_cell {
     // from other facets, by albedo.
     float4 numerator;
     float4 denominator;
-    // Tangents of the elevation above which the coarse relief's facets see the sky, by azimuth:
-    // two half floats, lower and upper.
+    // Sines of the elevations from which on nothing, and above which all of the coarse relief's
+    // facets sees the sky, by azimuth: four bytes, of the lower facet, then of the upper.
     uint horizons[WU_AZIMUTHS];
 };
 INTERFACE_SIZE(wu_cell, 240)

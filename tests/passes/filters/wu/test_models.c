@@ -116,8 +116,14 @@ static void check_heights(const float *found, const double *expected, uint32_t c
         fail_msg("level %u of %u cells: off by %g of %g", level, count, sqrt(error), sqrt(sum));
 }
 
-static void check_levels(fixture *f, uint32_t width, uint32_t height) {
-    lobe_image map = relief_map(width, height, rough);
+/// A weave whose cells of 8 texels are level, although the heights of their corners differ.
+static double weave(uint32_t column, uint32_t row) {
+    const double down = sin(M_PI * row / 8), side = row / 8 % 2 ? -1 : 1;
+    return 40 * fabs(down) * fmax(side * sin(M_PI * column / 8), 0);
+}
+
+static void check_levels(fixture *f, uint32_t width, uint32_t height, relief_height height_at) {
+    lobe_image map = relief_map(width, height, height_at);
     double expected[WU_LEVELS][MOST_CELLS];
     struct wu_constants constants = {0};
     passes_wu_place_levels(width, height, &kind, &constants);
@@ -142,7 +148,8 @@ static void check_levels(fixture *f, uint32_t width, uint32_t height) {
 static void coarse_heights_are_the_closed_form(void **state) {
     static const uint32_t sizes[][2] = {{128, 128}, {128, 64}, {67, 45}, {7, 100}, {3, 1}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        check_levels(*state, sizes[i][0], sizes[i][1]);
+        check_levels(*state, sizes[i][0], sizes[i][1], rough);
+    check_levels(*state, 128, 128, weave);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -199,6 +206,31 @@ static void a_level_map_is_not_scaled(void **state) {
         &model, models->cells, (size_t)models->bytes - (levels * PAIRS * 2 + 4) * sizeof(float));
     assert_float_equal(cell->numerator[0] / cell->denominator[0], 1, 2e-3);
     assert_true(cell->numerator[1] == 0);
+    end(&model);
+}
+
+static float scaling_of(const struct wu_cell *cell) {
+    return cell->numerator[0] / cell->denominator[0];
+}
+
+/// From the middle of one patch to that of the next T goes in even steps, of which there are four.
+static void patches_have_no_borders(void **state) {
+    enum { ACROSS = 8 };
+    model_run model;
+    begin_light(&model, *state, 8 * ACROSS, waves, &kind);
+    const struct wu_level *last =
+        &model.build.models.constants.levels[model.build.models.constants.level_count - 1];
+    const struct wu_cell *cells =
+        data_of(&model, model.build.models.cells, (last->first_cell + 1) * sizeof(struct wu_cell));
+    float least = INFINITY, most = -INFINITY, step = 0;
+    for (int i = 0; i < ACROSS; i++) {
+        const float here = scaling_of(&cells[i]), next = scaling_of(&cells[(i + 1) % ACROSS]);
+        least = fminf(least, here);
+        most = fmaxf(most, here);
+        step = fmaxf(step, fabsf(next - here));
+    }
+    if (!(most > least && step <= 0.4F * (most - least)))
+        fail_msg("from %g to %g by steps of %g", (double)least, (double)most, (double)step);
     end(&model);
 }
 
@@ -367,6 +399,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_heights_are_the_closed_form),
         cmocka_unit_test(a_level_map_is_not_scaled),
+        cmocka_unit_test(patches_have_no_borders),
         cmocka_unit_test(valleys_reflect_their_closed_form),
         cmocka_unit_test(lobes_reflect_as_their_facets),
         cmocka_unit_test(paths_lose_no_light),
