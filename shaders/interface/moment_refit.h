@@ -41,21 +41,29 @@ struct survey_extremes {
 INTERFACE_SIZE(survey_extremes, 32)
 INTERFACE_OFFSET(survey_extremes, factors, 16)
 
+// Where maps are interpolated, units of bins must hold what lies between texels of two bins: so
+// many steps from one's middle to the other's are looked at, each with the sharpest and the
+// broadest lobe.
+#define BETWEEN_STEPS  8
+#define BETWEEN_PLACES (2 * (BETWEEN_STEPS - 1))
+
 // Push constants of moment_refit.
 struct refit_constants {
     uint cells;
-    uint lobes;     // of the sample; of each x, y: place, z: variance, w: weight
-    float points;   // that a lobe counts as; see lib/lobe/bin_membership.glsl
-    uint bins;      // not a specialisation constant: one pipeline serves most materials
-    uint has_first; // 0: there are no first bins to start from
-    uint follows;   // 0: nothing of earlier fits counts
+    uint lobes;        // of the sample; of each x, y: place, z: variance, w: weight
+    float points;      // that a lobe counts as; see lib/lobe/bin_membership.glsl
+    uint bins;         // not a specialisation constant: one pipeline serves most materials
+    uint has_first;    // 0: there are no first bins to start from
+    uint follows;      // 0: nothing of earlier fits counts
+    uint interpolated; // 0: there is nothing between texels
 };
-INTERFACE_SIZE(refit_constants, 24)
+INTERFACE_SIZE(refit_constants, 28)
 INTERFACE_OFFSET(refit_constants, lobes, 4)
 INTERFACE_OFFSET(refit_constants, points, 8)
 INTERFACE_OFFSET(refit_constants, bins, 12)
 INTERFACE_OFFSET(refit_constants, has_first, 16)
 INTERFACE_OFFSET(refit_constants, follows, 20)
+INTERFACE_OFFSET(refit_constants, interpolated, 24)
 
 // A bin as a Gaussian.
 struct fit_gaussian {

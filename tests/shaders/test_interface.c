@@ -337,6 +337,7 @@ static known_member known[] = {
     MEMBER(refit_constants, bins, 3),
     MEMBER(refit_constants, has_first, 4),
     MEMBER(refit_constants, follows, 5),
+    MEMBER(refit_constants, interpolated, 6),
     MEMBER(fit_gaussian, place, 0),
     MEMBER(fit_gaussian, spread, 1),
     MEMBER(fit_state, shown, 0),

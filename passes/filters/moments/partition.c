@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "passes/maps/base_maps.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/moment_refit.h"
 
 // ---------------------------------------------------------------------------------------------
 // The units of a bin's moments
@@ -31,38 +33,56 @@ static void reach_widths(const plane_sample *sample, double member, bin_reach *r
     reach->sharpness = fmax(reach->sharpness, member * sharpness);
 }
 
+static void reach_sample(const plane_sample *sample, const plane_mixture *m,
+                         const moment_partition *partition, bin_reach *reaches) {
+    double members[MOMENT_MAXIMUM_BINS];
+    passes_mixture_share(m, sample, members);
+    for (uint32_t k = 0; k < m->count; k++) {
+        reach_to(&partition->constants.bins[k], sample->place, members[k], &reaches[k]);
+        reach_widths(sample, members[k], &reaches[k]);
+    }
+}
+
 static void reach_samples(const lobe_survey *survey, const plane_mixture *m,
                           const moment_partition *partition, bin_reach *reaches) {
-    for (uint32_t i = 0; i < survey->count; i++) {
-        const plane_sample *sample = &survey->samples[i];
-        double members[MOMENT_MAXIMUM_BINS];
-        passes_mixture_share(m, sample, members);
-        for (uint32_t k = 0; k < m->count; k++) {
-            reach_to(&partition->constants.bins[k], sample->place, members[k], &reaches[k]);
-            reach_widths(sample, members[k], &reaches[k]);
-        }
-    }
+    for (uint32_t i = 0; i < survey->count; i++)
+        reach_sample(&survey->samples[i], m, partition, reaches);
+}
+
+static double least_variance(const plane_range *range) {
+    return 1 / (range->sharpest * range->sharpest);
 }
 
 /// The corners of the range of all places, where samples are rare.
 static void reach_corners(const plane_range *range, const plane_mixture *m,
                           const moment_partition *partition, bin_reach *reaches) {
     for (int i = 0; i < 8; i++) {
-        plane_sample corner = {.place = {i & 1 ? range->low[0] : range->high[0],
-                                         i & 2 ? range->low[1] : range->high[1]},
-                               .variance = i & 4 ? range->broadest
-                                                 : 1 / (range->sharpest * range->sharpest)};
-        double members[MOMENT_MAXIMUM_BINS];
-        passes_mixture_share(m, &corner, members);
-        for (uint32_t k = 0; k < m->count; k++) {
-            reach_to(&partition->constants.bins[k], corner.place, members[k], &reaches[k]);
-            reach_widths(&corner, members[k], &reaches[k]);
+        const plane_sample corner = {.place = {i & 1 ? range->low[0] : range->high[0],
+                                               i & 2 ? range->low[1] : range->high[1]},
+                                     .variance = i & 4 ? range->broadest : least_variance(range)};
+        reach_sample(&corner, m, partition, reaches);
+    }
+}
+
+/// What is interpolated between texels of two bins, where no texel need be: a bin without texels
+/// there gets it.
+static void reach_between(const plane_range *range, const plane_mixture *m,
+                          const moment_partition *partition, bin_reach *reaches) {
+    for (uint32_t pair = 0; pair < m->count * m->count; pair++) {
+        const double *from = m->components[pair / m->count].mean;
+        const double *to = m->components[pair % m->count].mean;
+        for (uint32_t i = 0; i < BETWEEN_PLACES; i++) {
+            const double part = (i / 2 + 1) / (double)BETWEEN_STEPS;
+            const plane_sample between = {
+                .place = {from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])},
+                .variance = i & 1 ? range->broadest : least_variance(range)};
+            reach_sample(&between, m, partition, reaches);
         }
     }
 }
 
 /// The origin is the bin's centre, so that the moments of a small bin keep their digits.
-static void set_fitted_ranges(const lobe_survey *survey, const plane_mixture *m,
+static void set_fitted_ranges(const lobe_survey *survey, const plane_mixture *m, bool interpolated,
                               moment_partition *partition) {
     const plane_range *range = &survey->range;
     bin_reach reaches[MOMENT_MAXIMUM_BINS] = {{0}};
@@ -71,6 +91,8 @@ static void set_fitted_ranges(const lobe_survey *survey, const plane_mixture *m,
             partition->constants.bins[k].range[i] = (float)m->components[k].mean[i];
     reach_samples(survey, m, partition, reaches);
     reach_corners(range, m, partition, reaches);
+    if (interpolated)
+        reach_between(range, m, partition, reaches);
     for (uint32_t k = 0; k < m->count; k++) {
         moment_bin *bin = &partition->constants.bins[k];
         bin->range[2] = (float)fmax(margin * reaches[k].place, 1e-3);
@@ -96,7 +118,7 @@ static void set_common_ranges(const plane_range *range, moment_partition *partit
 // ---------------------------------------------------------------------------------------------
 // Partitions
 
-static void set_fitted(const lobe_survey *survey, const plane_mixture *m,
+static void set_fitted(const lobe_survey *survey, const plane_mixture *m, bool interpolated,
                        moment_partition *partition) {
     partition->bins = m->count;
     for (uint32_t i = 0; i < m->count; i++) {
@@ -110,7 +132,7 @@ static void set_fitted(const lobe_survey *survey, const plane_mixture *m,
             bin->shape[k] = (float)(0.5 * m->points * c->inverse[k]);
     }
     if (survey->count > 0)
-        set_fitted_ranges(survey, m, partition);
+        set_fitted_ranges(survey, m, interpolated, partition);
     else
         set_common_ranges(&survey->range, partition);
 }
@@ -151,7 +173,7 @@ static lobe_result set_bins(const device_scene *scene, const device_material *ma
     partition->points = (float)choice.mixture.points;
     partition->has_first = survey->count > 0;
     if (request->kind == PARTITION_FITTED)
-        set_fitted(survey, &choice.mixture, partition);
+        set_fitted(survey, &choice.mixture, passes_base_maps_are_interpolated(material), partition);
     else
         set_hats(survey, partition);
     return LOBE_OK;

@@ -5,6 +5,7 @@
 
 #include "passes/context/material_specialisation.h"
 #include "passes/filters/moments/cell_survey.h"
+#include "passes/maps/base_maps.h"
 #include "passes/maps/tile_knobs.h"
 #include "shaders/interface/moment_refit.h"
 
@@ -92,9 +93,14 @@ lobe_resource passes_moment_refit(const filter_context *context, uint32_t index,
         return bins;
     const uint32_t part = passes_texel_samples(context) > 0 ? SURVEY_PART : 0;
     passes_moment_cell_survey(context, index, request->bright_texels, part, &survey);
-    const struct refit_constants constants = {survey.cells,         survey.lobe_count,
-                                              partition->points,    partition->bins,
-                                              partition->has_first, request->follows};
+    const struct refit_constants constants = {
+        survey.cells,
+        survey.lobe_count,
+        partition->points,
+        partition->bins,
+        partition->has_first,
+        request->follows,
+        passes_base_maps_are_interpolated(&context->scene->materials[index])};
     lobe_pass *pass = lobe_graph_add_pass(context->graph, LOBE_PASS_COMPUTE, "moment_refit");
     read_inputs(context, index, partition, &survey, pass);
     continue_fit(context->graph, state, request->follows, pass);

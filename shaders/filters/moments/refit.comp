@@ -337,6 +337,20 @@ vec2 origin_of(uint index, progress at) {
     return at.old > 0.0 ? shown[index].place.xy : bins[index].centre.xy;
 }
 
+// A place between the middles of two bins, for units. Without weight.
+vec4 place_between(plane_range range, progress at, uint index) {
+    uint pair = index / BETWEEN_PLACES, place = index % BETWEEN_PLACES;
+    float part = float(place / 2u + 1u) / float(BETWEEN_STEPS);
+    return vec4(mix(origin_of(pair / at.count, at), origin_of(pair % at.count, at), part),
+                (place & 1u) != 0u ? range.broadest : 1.0 / (range.sharpest * range.sharpest), 0.0);
+}
+
+uint between_count(progress at) {
+    return PARTITION == PARTITION_FITTED && at.step == MEASURE && constants.interpolated != 0
+               ? at.count * at.count * BETWEEN_PLACES
+               : 0;
+}
+
 // Fills the numbers of one bin.
 void visit(uint index, progress at, plane_range range) {
     vec4 sums = vec4(0.0), moments = vec4(0.0), largest = vec4(0.0, 0.0, 0.0, -1e30);
@@ -346,9 +360,11 @@ void visit(uint index, progress at, plane_range range) {
     bin_shapes shapes = shapes_from(0), old_shapes = shapes;
     if (at.old > 0.0)
         old_shapes = shapes_from(OLD_BINS);
-    uint corners = PARTITION == PARTITION_FITTED ? 8 : 0;
-    for (uint n = thread(); n < constants.lobes + corners; n += THREADS) {
-        vec4 lobe = n < constants.lobes ? lobes[n] : corner_of(range, n - constants.lobes);
+    uint corners = PARTITION == PARTITION_FITTED ? 8 : 0, between = constants.lobes + corners;
+    for (uint n = thread(); n < between + between_count(at); n += THREADS) {
+        vec4 lobe = n < constants.lobes ? lobes[n]
+                    : n < between       ? corner_of(range, n - constants.lobes)
+                                        : place_between(range, at, n - between);
         bin_likelihoods all = likelihoods_of(lobe, index, shapes, at.count);
         float member = member_of(all);
         if (at.old > 0.0) {

@@ -1,6 +1,6 @@
 // The filter "moments" at its defaults against the mean of what the texels reflect, where the mean
 // of their parameters misses it: few steep texels in a polish, colours that go with directions,
-// meshes that tint metal, several widths in a bin.
+// meshes that tint metal, several widths in a bin, normals between those of texels.
 
 #include "tests/passes/support/fixture.h"
 
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "passes/context/sample_pattern.h"
+#include "tests/passes/filters/moments/changed_map.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
@@ -198,6 +199,72 @@ static void few_rough_texels_are_seen_far_from_highlights(void **state) {
     check_plane(*state, &p, degrees, 3, 0.3);
 }
 
+// ---------------------------------------------------------------------------------------------
+// Between texels
+
+/// Two columns of texels lean to one side, the next two to the other; or rows.
+static lobe_image folded_map(bool rows) {
+    lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
+    for (uint32_t i = 0; i < TEXELS; i++) {
+        const uint32_t along = rows ? i / EXTENT : i % EXTENT;
+        double normal[3];
+        float *texel = (float *)image.texels + (size_t)4 * i;
+        slope_plane_direction(20, (rows ? 0.5 : 0) * M_PI + (along / 2 % 2 ? M_PI : 0), normal);
+        for (int j = 0; j < 3; j++)
+            texel[j] = (float)(0.5 + 0.5 * normal[j]);
+        texel[3] = 1;
+    }
+    return image;
+}
+
+static double draw_once(fixture *f, const char *storage) {
+    picture_request request = {
+        .filter = "moments", .settings = {storage}, .width = 1, .height = 1, .samples = 1};
+    lobe_frame frame = draw(f, &request);
+    const double green = (double)pixel_at(&frame.radiance, 0, 0)[1];
+    lobe_frame_free(&frame);
+    return green;
+}
+
+/// Straight from above, where no texel faces. `changes`: the texels were others in the frame
+/// before.
+static double draw_folds(fixture *f, bool changes, const char *storage) {
+    static const uint32_t normals = 0;
+    const double up[3] = {0, 0, 1};
+    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3, 1);
+    lobe_image image = folded_map(changes);
+    lobe_material mapped;
+    lobe_scene *scene = slope_plane(&material, &image, up, &mapped);
+    lobe_image_free(&image);
+    scene->materials[0].normal_map.nearest = false;
+    slope_plane_add_sun(scene, up, 1);
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    double green = draw_once(f, storage);
+    if (changes) {
+        replace_texels(scene, normals, folded_map(false));
+        assert_int_equal(
+            lobe_renderer_update_scene(f->renderer,
+                                       &(lobe_scene_changes){.images = &normals, .image_count = 1}),
+            LOBE_OK);
+        green = draw_once(f, storage);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+    return green;
+}
+
+/// The units of a bin hold what is interpolated between its texels and those of others: with bins
+/// that the host fits, and the device.
+static void what_lies_between_texels_is_not_clipped(void **state) {
+    for (int changes = 0; changes < 2; changes++) {
+        const double found = draw_folds(*state, changes, "storage=snorm16");
+        const double expected = draw_folds(*state, changes, "storage=float32");
+        if (!(fabs(found / expected - 1) < 0.02))
+            fail_msg("%s: %g instead of %g", changes ? "changed" : "new", found, expected);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(few_steep_texels_leave_the_polish),
@@ -207,6 +274,7 @@ int main(void) {
         cmocka_unit_test(one_bin_has_several_widths),
         cmocka_unit_test(one_bin_has_polish_and_rough_patches),
         cmocka_unit_test(few_rough_texels_are_seen_far_from_highlights),
+        cmocka_unit_test(what_lies_between_texels_is_not_clipped),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
