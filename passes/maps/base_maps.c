@@ -84,13 +84,18 @@ bool passes_base_maps_are_interpolated(const device_material *material) {
 }
 
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list) {
+    passes_base_maps_specialise_points(material, passes_mask_cuts_texels(material), list);
+}
+
+void passes_base_maps_specialise_points(const device_material *material, bool many_points,
+                                        specialisation_list *list) {
     // Without those that no map of lobes reads.
     const uint32_t apart = passes_widths_lie_apart(material) ? 1u << MAP_WIDTH : 0;
     const uint32_t unread = 1u << MAP_EMISSIVE | 1u << MAP_OCCLUSION | apart;
     passes_lobes_specialise(material, material->map_bits & ~unread, list);
     passes_specialise(list, SPECIALISE_INTERPOLATED, passes_base_maps_are_interpolated(material));
     passes_specialise(list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
-    passes_specialise(list, SPECIALISE_MASK_POINTS, passes_mask_cuts_texels(material));
+    passes_specialise(list, SPECIALISE_MASK_POINTS, many_points);
 }
 
 void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,

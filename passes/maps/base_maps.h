@@ -17,6 +17,9 @@ void passes_base_map_read(const filter_context *context, const device_material *
                           uint32_t map, const char *name, lobe_pass *pass);
 /// The constants of the material and of shaders/maps/base_maps.glsl.
 void passes_base_maps_specialise(const device_material *material, specialisation_list *list);
+/// The same. `many_points`: of each texel, as where a mask cuts it.
+void passes_base_maps_specialise_points(const device_material *material, bool many_points,
+                                        specialisation_list *list);
 
 /// The base colour map, if the shader `reads` colours or the material's lobes are masked; else
 /// white: it then depends on no such map.

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "passes/filters/moments/footprints/footprint_set.h"
+#include "passes/maps/base_maps.h"
 #include "passes/upload/material_maps.h"
 
 // A lobe counts as this many points drawn from it: the more points, the harder the borders between
@@ -19,6 +20,10 @@ static const uint32_t bins_of_unread = 3;
 
 // From this variance of base lobes on, how directions differ hardly shows, and one bin serves.
 static const double broad_variance = 0.2;
+
+// Where two points a texel make squared errors this much larger than many do, many are read,
+// although maps take several times as long to make.
+static const double points_gain = 2;
 
 // The squared error that pictures have anyway, as a fetch covers a pixel badly. Errors of bins that
 // are smaller hardly show.
@@ -43,9 +48,10 @@ static bool is_known(const double *likelihoods, uint32_t start) {
 
 /// Logarithms, so that what a broad light shows of sharp lobes counts as much as what a point does,
 /// under which no bins match them. Of bins with the footprint's colour and with their own.
-static void compare(const footprint_set *set, const plane_mixture *mixture, double logarithms[2]) {
+static void compare(const footprint_set *set, const footprint_lobes *lobes,
+                    const plane_mixture *mixture, double logarithms[2]) {
     footprint_error errors[FOOTPRINT_LIGHTS];
-    const uint32_t lights = passes_footprint_set_compare(set, mixture, errors);
+    const uint32_t lights = passes_footprint_set_compare(set, lobes, mixture, errors);
     logarithms[0] = logarithms[1] = 0;
     for (uint32_t k = 0; k < lights; k++) {
         logarithms[0] += log(errors[k].mean_colour + unavoidable) / lights;
@@ -66,7 +72,7 @@ static void fit_best(const footprint_set *set, const lobe_survey *survey, uint32
         likelihoods[start] = trial.likelihood;
         if (is_known(likelihoods, start))
             continue;
-        compare(set, &trial, logarithms);
+        compare(set, NULL, &trial, logarithms);
         for (int own = 0; own < 2; own++)
             if (i == 0 || logarithms[own] < best[own].logarithm)
                 best[own] = (candidate){.choice = {trial, own}, .logarithm = logarithms[own]};
@@ -119,6 +125,25 @@ static void choose(const device_material *material, const footprint_set *set,
     }
 }
 
+/// Of what is interpolated between texels, passes that build maps read two points a texel. That is
+/// enough unless few normals repeat, as in folds of a texel or two. False: out of memory.
+static bool choose_points(const device_scene *scene, const device_material *material,
+                          const footprint_set *set, const lobe_allocator *allocator,
+                          bin_choice *choice) {
+    if (!passes_base_maps_are_interpolated(material))
+        return true;
+    footprint_lobes *lobes = passes_footprint_lobes_read(scene, material, allocator);
+    if (!lobes)
+        return false;
+    double with_two[2], with_all[2];
+    compare(set, lobes, &choice->mixture, with_two);
+    compare(set, NULL, &choice->mixture, with_all);
+    choice->many_points =
+        with_two[choice->own_colours] - with_all[choice->own_colours] > log(points_gain);
+    lobe_release(lobes);
+    return true;
+}
+
 /// Whether all texels have the same broad lobe, but for its direction.
 static bool has_broad_lobes(const device_material *material) {
     material_lobe lobes[LOBE_MATERIAL_MAXIMUM_LOBES];
@@ -148,6 +173,7 @@ bool passes_bins_choose(const device_scene *scene, const device_material *materi
     if (!set)
         return false;
     choose(material, set, survey, request, choice);
+    const bool done = choose_points(scene, material, set, allocator, choice);
     lobe_release(set);
-    return true;
+    return done;
 }

@@ -22,6 +22,7 @@ typedef struct bin_request {
 typedef struct bin_choice {
     plane_mixture mixture;
     bool own_colours;
+    bool many_points; ///< two points of a texel miss what is interpolated between texels
 } bin_choice;
 
 /// Fits the mixture that serves some footprints on a material's maps best: squares of several

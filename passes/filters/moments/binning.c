@@ -10,10 +10,14 @@
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/lobe_grid.h"
 
+static bool reads_many_points(const device_material *material, const moment_partition *partition) {
+    return partition->many_points || passes_mask_cuts_texels(material);
+}
+
 static void specialise_binning(const filter_context *context, const device_material *material,
                                const moment_partition *partition, bool colour,
                                specialisation_list *list) {
-    passes_base_maps_specialise(material, list);
+    passes_base_maps_specialise_points(material, reads_many_points(material, partition), list);
     passes_knob_specialise(context, &passes_knob_base, list);
     passes_specialise(list, SPECIALISE_BINS, partition->bins);
     passes_specialise(list, SPECIALISE_PARTITION, partition->kind);
@@ -36,7 +40,7 @@ static void add_level(const filter_context *context, uint32_t index,
     specialise_binning(context, material, partition, colour, &list);
     passes_specialise(&list, SPECIALISE_TEXEL_SAMPLES, samples);
     struct lobe_grid_constants constants = passes_lobe_grid_constants(context, material);
-    if (colour && samples == 0)
+    if (colour && samples == 0 && !partition->many_points)
         passes_colour_square_specialise(material, &constants,
                                         passes_base_maps_are_interpolated(material), &list);
     constants.level = level;
@@ -51,8 +55,9 @@ static void add_level(const filter_context *context, uint32_t index,
 
 /// Samples of level 0, of whose texels each covers four of the base maps': none, where these have
 /// fewer points.
-static uint32_t finest_samples(const device_material *material, uint32_t samples) {
-    const uint32_t points = 4 * (passes_mask_cuts_texels(material)             ? MASKED_TEXEL_POINTS
+static uint32_t finest_samples(const device_material *material, const moment_partition *partition,
+                               uint32_t samples) {
+    const uint32_t points = 4 * (reads_many_points(material, partition)        ? MASKED_TEXEL_POINTS
                                  : passes_base_maps_are_interpolated(material) ? TEXEL_POINTS
                                                                                : 1);
     return samples * samples < points ? samples : 0;
@@ -69,7 +74,7 @@ moment_map passes_moment_binning(const filter_context *context, uint32_t index,
     moment_map result = {.format = format, .bins = bins};
     result.map =
         passes_seen_map_declare_with(context, index, name, format, layers, samples == 0, bins);
-    add_level(context, index, partition, &result, 0, finest_samples(material, samples));
+    add_level(context, index, partition, &result, 0, finest_samples(material, partition, samples));
     for (uint32_t level = 1; samples > 0 && level < result.map.levels; level++)
         add_level(context, index, partition, &result, level, samples);
     if (samples == 0)

@@ -170,6 +170,7 @@ static lobe_result set_bins(const device_scene *scene, const device_material *ma
     if (!passes_bins_choose(scene, material, survey, &request->bins, allocator, &choice))
         return LOBE_ERROR_OUT_OF_MEMORY;
     partition->own_colours = choice.own_colours;
+    partition->many_points = choice.many_points;
     partition->points = (float)choice.mixture.points;
     partition->has_first = survey->count > 0;
     if (request->kind == PARTITION_FITTED)

@@ -21,6 +21,7 @@ typedef struct moment_partition {
     uint32_t kind;          ///< PARTITION_...
     uint32_t bins;          ///< [1, MOMENT_MAXIMUM_BINS]
     bool own_colours;       ///< bins have specular colours of their own
+    bool many_points;       ///< texels of the base maps are read at as many points as under a mask
     uint32_t width, height; ///< of the base maps, texels: the larger of normal and width map
     float points;           ///< that a lobe counts as
     bool has_first;         ///< false: the host could not read the maps, and has fitted nothing

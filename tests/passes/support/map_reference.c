@@ -78,7 +78,16 @@ static bool is_interpolated(const lobe_scene *scene, const lobe_texture_use *use
 texel_points texel_points_of(const lobe_scene *scene, const lobe_material *material) {
     if (!is_interpolated(scene, &material->normal_map) &&
         !is_interpolated(scene, width_map_of(material)))
-        return (texel_points){1, {0}};
+        return (texel_points){1, {{0}}};
     double gauss = 0.5 - 0.5 / sqrt(3);
-    return (texel_points){2, {gauss, -gauss}};
+    return (texel_points){2, {{gauss, gauss}, {-gauss, -gauss}}};
+}
+
+texel_points many_texel_points(void) {
+    texel_points points = {.count = 16};
+    for (int i = 0; i < 16; i++) {
+        points.offsets[i][0] = (i + 0.5) / 16 - 0.5;
+        points.offsets[i][1] = fmod((3 * i + 5.5) / 16, 1) - 0.5;
+    }
+    return points;
 }

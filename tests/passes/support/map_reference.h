@@ -26,9 +26,11 @@ void read_surface(const lobe_scene *scene, const lobe_material *material, double
 /// The points of each texel at which passes read the maps.
 typedef struct texel_points {
     uint32_t count;
-    double offsets[2]; ///< from the texel's centre along both axes, texels
+    double offsets[16][2]; ///< from the texel's centre, texels
 } texel_points;
 
 texel_points texel_points_of(const lobe_scene *scene, const lobe_material *material);
+/// Sixteen, where two are too few.
+texel_points many_texel_points(void);
 
 #endif

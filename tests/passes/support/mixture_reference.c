@@ -82,10 +82,10 @@ reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_materi
 }
 
 void read_lobe_point(const lobe_scene *scene, const lobe_material *material,
-                     const reference_layers *size, uint32_t x, uint32_t y, double offset,
+                     const reference_layers *size, uint32_t x, uint32_t y, const double offset[2],
                      double normal[3], double width[4]) {
-    read_surface(scene, material, (x + 0.5 + offset) / size->width,
-                 (y + 0.5 + offset) / size->height, normal, width);
+    read_surface(scene, material, (x + 0.5 + offset[0]) / size->width,
+                 (y + 0.5 + offset[1]) / size->height, normal, width);
 }
 
 reference_layers mixture_of_texels(const lobe_scene *scene, const lobe_material *material,

@@ -15,7 +15,7 @@ reference_layers allocate_lobe_texels(const lobe_scene *scene, const lobe_materi
                                       uint32_t layers);
 /// Normal and factor of the width at a point of one of those texels (texel_points.offsets).
 void read_lobe_point(const lobe_scene *scene, const lobe_material *material,
-                     const reference_layers *size, uint32_t x, uint32_t y, double offset,
+                     const reference_layers *size, uint32_t x, uint32_t y, const double offset[2],
                      double normal[3], double width[4]);
 
 /// The frame of a texel as columns (tangent, bitangent, normal); false: the texel is left out.

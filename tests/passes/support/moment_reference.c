@@ -19,6 +19,7 @@ reference_moment_bins moment_bins_of(const moment_partition *partition, double c
         .bins = partition->bins,
         .colour = partition->own_colours,
         .mirrored = partition->own_colours,
+        .many_points = partition->many_points,
         .mass_scale = (double)partition->constants.largest[0],
         .colour_scale = colour_scale,
         .constants = partition->constants,
@@ -83,14 +84,15 @@ reference_layers moments_of_texels(const lobe_scene *scene, const lobe_material 
     bool microfacet = material->model == LOBE_MATERIAL_MICROFACET;
     uint32_t last = reference_moment_layers(partition) - 1;
     reference_layers layers = allocate_lobe_texels(scene, material, last + 1);
-    const texel_points points = texel_points_of(scene, material);
+    const texel_points points =
+        partition->many_points ? many_texel_points() : texel_points_of(scene, material);
     for (uint32_t at = 0; at < layers.width * layers.height * points.count; at++) {
         uint32_t texel = at / points.count, x = texel % layers.width, y = texel / layers.width;
-        double offset = points.offsets[at % points.count];
+        const double *offset = points.offsets[at % points.count];
         double normal[3], width[4], specular[4], diffuse[4];
         read_lobe_point(scene, material, &layers, x, y, offset, normal, width);
-        read_colours(scene, material, (x + 0.5 + offset) / layers.width,
-                     (y + 0.5 + offset) / layers.height, width, specular, diffuse);
+        read_colours(scene, material, (x + 0.5 + offset[0]) / layers.width,
+                     (y + 0.5 + offset[1]) / layers.height, width, specular, diffuse);
         for (uint32_t i = 0; i < (microfacet ? 1 : material->lobe_count); i++) {
             reference_plane_lobe lobe = lobe_at_point(material, i, normal, width, specular, as_lobe,
                                                       partition->colour_scale);

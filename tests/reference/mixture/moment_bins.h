@@ -13,8 +13,9 @@
 typedef struct reference_moment_bins {
     uint32_t kind; ///< PARTITION_...
     uint32_t bins;
-    bool colour;   ///< bins have colours
-    bool mirrored; ///< in these, lobes count by what they mirror
+    bool colour;      ///< bins have colours
+    bool mirrored;    ///< in these, lobes count by what they mirror
+    bool many_points; ///< of each texel
     double mass_scale, colour_scale;
     struct moment_binning_constants constants;
 } reference_moment_bins;

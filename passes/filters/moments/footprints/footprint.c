@@ -155,12 +155,16 @@ bool passes_footprint_is_sharp(double variance) {
     return variance < broad_light;
 }
 
-void passes_footprint_complete(footprint *patch) {
+void passes_footprint_normalise(plane_sample *lobes, uint32_t count) {
     double total = 0;
-    for (uint32_t k = 0; k < patch->count; k++)
-        total += patch->lobes[k].weight;
-    for (uint32_t k = 0; k < patch->count; k++)
-        patch->lobes[k].weight /= total;
+    for (uint32_t k = 0; k < count; k++)
+        total += lobes[k].weight;
+    for (uint32_t k = 0; k < count; k++)
+        lobes[k].weight /= total;
+}
+
+void passes_footprint_complete(footprint *patch) {
+    passes_footprint_normalise(patch->lobes, patch->count);
     for (uint32_t i = 0; i < patch->light_count; i++) {
         patch->lights[i].variance = i * broad_light;
         draw_places(patch, &patch->lights[i]);
@@ -237,10 +241,10 @@ static void add_to_shape(shape_sums *sums, const plane_sample *lobe, double coun
 }
 
 /// How many there are.
-static uint32_t collect(const footprint *patch, const plane_mixture *m,
-                        bin_sums sums[MOMENT_MAXIMUM_BINS]) {
-    for (uint32_t i = 0; i < patch->count; i++) {
-        const plane_sample *lobe = &patch->lobes[i];
+static uint32_t collect(const footprint *patch, const plane_sample *lobes, uint32_t lobe_count,
+                        const plane_mixture *m, bin_sums sums[MOMENT_MAXIMUM_BINS]) {
+    for (uint32_t i = 0; i < lobe_count; i++) {
+        const plane_sample *lobe = &lobes[i];
         double members[MOMENT_MAXIMUM_BINS];
         passes_mixture_share(m, lobe, members);
         for (uint32_t k = 0; k < m->count; k++) {
@@ -291,10 +295,11 @@ static footprint_error compare_light(const footprint *patch, const footprint_lig
     return error;
 }
 
-void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
+void passes_footprint_compare(const footprint *patch, const plane_sample *lobes,
+                              uint32_t lobe_count, const plane_mixture *mixture,
                               footprint_error errors[FOOTPRINT_LIGHTS]) {
     bin_sums sums[MOMENT_MAXIMUM_BINS] = {0};
-    const uint32_t count = collect(patch, mixture, sums);
+    const uint32_t count = collect(patch, lobes, lobe_count, mixture, sums);
     for (uint32_t i = 0; i < patch->light_count; i++)
         errors[i] = compare_light(patch, &patch->lights[i], sums, count);
 }

@@ -36,6 +36,8 @@ typedef struct footprint {
 /// Whether lobes of this variance look different under the broad light.
 bool passes_footprint_is_sharp(double variance);
 
+/// Lets the weights of lobes add up to one.
+void passes_footprint_normalise(plane_sample *lobes, uint32_t count);
 /// Completes a footprint of which the first five are set.
 void passes_footprint_complete(footprint *patch);
 
@@ -44,8 +46,10 @@ typedef struct footprint_error {
     double mean_colour, bin_colours; ///< bins with the footprint's mean colour, or with their own
 } footprint_error;
 
-/// The errors, by light, of the bins that the mixture makes of the footprint.
-void passes_footprint_compare(const footprint *patch, const plane_mixture *mixture,
+/// The errors, by light, of the bins that the mixture makes of some of the footprint's lobes, such as
+/// all.
+void passes_footprint_compare(const footprint *patch, const plane_sample *lobes, uint32_t count,
+                              const plane_mixture *mixture,
                               footprint_error errors[FOOTPRINT_LIGHTS]);
 
 #endif

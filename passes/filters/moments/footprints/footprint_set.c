@@ -6,6 +6,7 @@
 #include "passes/context/sample_pattern.h"
 #include "passes/maps/colours/lobe_mask.h"
 #include "passes/upload/material_maps.h"
+#include "shaders/interface/lobe_grid.h"
 
 // In texels. What small ones show differs from place to place: one lobe or parts of two, which no
 // single bin serves. What large ones show is the same everywhere, but of more lobes.
@@ -51,18 +52,47 @@ static void place_point(const map_square *square, uint32_t index, uint32_t i, do
                                                  POINTS * square->size[axis];
 }
 
-static void read_square(const lobe_scene *scene, const device_material *material,
-                        const lobe_mask *mask, uint32_t index, footprint *read) {
+/// To a point of the same texel at which passes read it (shaders/lib/map/texel_point.glsl), either
+/// of the two by turns.
+static void move_to_texel_point(uint32_t i, double point[2]) {
+    for (uint32_t axis = 0; axis < 2; axis++)
+        point[axis] = floor(point[axis]) + 0.5 + (i % 2 ? -TEXEL_POINT : TEXEL_POINT);
+}
+
+/// Returns how many lobes were read. `texel_points`: at points at which passes read texels.
+static uint32_t read_square(const lobe_scene *scene, const device_material *material,
+                            const lobe_mask *mask, uint32_t index, bool texel_points,
+                            plane_sample *lobes) {
     const lobe_grid grid = passes_lobe_grid(material);
     const map_square square = place_square(&grid, index);
+    uint32_t count = 0;
     for (uint32_t i = 0; i < POINTS * POINTS; i++) {
         double point[2];
         place_point(&square, index, i, point);
-        if (passes_lobe_mask_cuts(mask, point))
-            continue;
-        read->count += passes_plane_samples_read(scene, material, point[0], point[1], 1,
-                                                 &read->lobes[read->count]);
+        if (texel_points)
+            move_to_texel_point(i + i / POINTS, point);
+        if (!passes_lobe_mask_cuts(mask, point))
+            count +=
+                passes_plane_samples_read(scene, material, point[0], point[1], 1, &lobes[count]);
     }
+    return count;
+}
+
+enum { LOBES = POINTS * POINTS * LOBE_MATERIAL_MAXIMUM_LOBES };
+
+footprint_lobes *passes_footprint_lobes_read(const device_scene *scene,
+                                             const device_material *material,
+                                             const lobe_allocator *allocator) {
+    const lobe_mask mask = passes_lobe_mask(scene, material);
+    footprint_lobes *read = lobe_allocate(
+        allocator, 1, sizeof *read + (size_t)FOOTPRINT_SQUARES * LOBES * sizeof *read->all);
+    for (uint32_t i = 0; read && i < FOOTPRINT_SQUARES; i++) {
+        plane_sample *lobes = read->all + (size_t)i * LOBES;
+        read->lobes[i] = lobes;
+        read->counts[i] = read_square(scene->scene, material, &mask, i, true, lobes);
+        passes_footprint_normalise(lobes, read->counts[i]);
+    }
+    return read;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -93,7 +123,6 @@ static void find_units(const footprint_set *set, uint32_t light, double units[FO
 footprint_set *passes_footprint_set_read(const device_scene *scene, const device_material *material,
                                          const lobe_survey *survey,
                                          const lobe_allocator *allocator) {
-    enum { LOBES = POINTS * POINTS * LOBE_MATERIAL_MAXIMUM_LOBES };
     const uint32_t lights = count_lights(survey);
     const lobe_mask mask = passes_lobe_mask(scene, material);
     footprint_set *set = lobe_allocate(
@@ -110,7 +139,7 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
         one->microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
         one->light_count = lights;
         if (i < FOOTPRINT_SQUARES)
-            read_square(scene->scene, material, &mask, i, one);
+            one->count = read_square(scene->scene, material, &mask, i, false, one->lobes);
         if (one->count == 0) {
             one->lobes = whole;
             one->count = survey->count;
@@ -122,7 +151,8 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
     return set;
 }
 
-uint32_t passes_footprint_set_compare(const footprint_set *set, const plane_mixture *mixture,
+uint32_t passes_footprint_set_compare(const footprint_set *set, const footprint_lobes *lobes,
+                                      const plane_mixture *mixture,
                                       footprint_error errors[FOOTPRINT_LIGHTS]) {
     const uint32_t lights = set->all[0].light_count;
     double diffuse = 0;
@@ -130,7 +160,9 @@ uint32_t passes_footprint_set_compare(const footprint_set *set, const plane_mixt
         errors[k] = (footprint_error){0};
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
         footprint_error own[FOOTPRINT_LIGHTS];
-        passes_footprint_compare(&set->all[i], mixture, own);
+        const bool own_lobes = !lobes || i >= FOOTPRINT_SQUARES || lobes->counts[i] == 0;
+        passes_footprint_compare(&set->all[i], own_lobes ? set->all[i].lobes : lobes->lobes[i],
+                                 own_lobes ? set->all[i].count : lobes->counts[i], mixture, own);
         for (uint32_t k = 0; k < lights; k++) {
             errors[k].mean_colour += own[k].mean_colour / set->units[k][i] / FOOTPRINTS;
             errors[k].bin_colours += own[k].bin_colours / set->units[k][i] / FOOTPRINTS;

@@ -13,6 +13,7 @@
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
 #include "tests/passes/support/slope_plane.h"
+#include "tests/reference/vector.h"
 
 /// Texels of one kind, scattered over the maps.
 typedef struct texel_kind {
@@ -202,19 +203,26 @@ static void few_rough_texels_are_seen_far_from_highlights(void **state) {
 // ---------------------------------------------------------------------------------------------
 // Between texels
 
-/// Two columns of texels lean to one side, the next two to the other; or rows.
-static lobe_image folded_map(bool rows) {
+enum { FOLD_DEGREES = 20 };
+
+/// `width` columns of texels lean to one side, as many to the other, and so on; or rows.
+static lobe_image folded_map(uint32_t width, bool rows) {
     lobe_image image = map_image(LOBE_FORMAT_RGBA32_FLOAT, EXTENT, EXTENT);
     for (uint32_t i = 0; i < TEXELS; i++) {
         const uint32_t along = rows ? i / EXTENT : i % EXTENT;
         double normal[3];
         float *texel = (float *)image.texels + (size_t)4 * i;
-        slope_plane_direction(20, (rows ? 0.5 : 0) * M_PI + (along / 2 % 2 ? M_PI : 0), normal);
+        slope_plane_direction(FOLD_DEGREES,
+                              (rows ? 0.5 : 0) * M_PI + (along / width % 2 ? M_PI : 0), normal);
         for (int j = 0; j < 3; j++)
             texel[j] = (float)(0.5 + 0.5 * normal[j]);
         texel[3] = 1;
     }
     return image;
+}
+
+static lobe_material fold_material(void) {
+    return microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3, 1);
 }
 
 static double draw_once(fixture *f, const char *storage) {
@@ -228,11 +236,11 @@ static double draw_once(fixture *f, const char *storage) {
 
 /// Straight from above, where no texel faces. `changes`: the texels were others in the frame
 /// before.
-static double draw_folds(fixture *f, bool changes, const char *storage) {
+static double draw_folds(fixture *f, uint32_t width, bool changes, const char *storage) {
     static const uint32_t normals = 0;
     const double up[3] = {0, 0, 1};
-    const lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.3, 1);
-    lobe_image image = folded_map(changes);
+    const lobe_material material = fold_material();
+    lobe_image image = folded_map(width, changes);
     lobe_material mapped;
     lobe_scene *scene = slope_plane(&material, &image, up, &mapped);
     lobe_image_free(&image);
@@ -242,7 +250,7 @@ static double draw_folds(fixture *f, bool changes, const char *storage) {
     assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
     double green = draw_once(f, storage);
     if (changes) {
-        replace_texels(scene, normals, folded_map(false));
+        replace_texels(scene, normals, folded_map(width, false));
         assert_int_equal(
             lobe_renderer_update_scene(f->renderer,
                                        &(lobe_scene_changes){.images = &normals, .image_count = 1}),
@@ -258,11 +266,28 @@ static double draw_folds(fixture *f, bool changes, const char *storage) {
 /// that the host fits, and the device.
 static void what_lies_between_texels_is_not_clipped(void **state) {
     for (int changes = 0; changes < 2; changes++) {
-        const double found = draw_folds(*state, changes, "storage=snorm16");
-        const double expected = draw_folds(*state, changes, "storage=float32");
+        const double found = draw_folds(*state, 2, changes, "storage=snorm16");
+        const double expected = draw_folds(*state, 2, changes, "storage=float32");
         if (!(fabs(found / expected - 1) < 0.02))
             fail_msg("%s: %g instead of %g", changes ? "changed" : "new", found, expected);
     }
+}
+
+/// Of folds of one texel all is interpolated: two points of each show only two normals.
+static void narrow_folds_are_read_at_many_points(void **state) {
+    enum { STEPS = 256 };
+    const lobe_material material = fold_material();
+    const double up[3] = {0, 0, 1}, slope = tan(FOLD_DEGREES * M_PI / 180);
+    double expected = 0;
+    for (int i = 0; i < STEPS; i++) {
+        double normal[3] = {slope * (2 * (i + 0.5) / STEPS - 1), 0, 1}, radiance[3];
+        reference_normalise(normal);
+        shade_base_material(&material, normal, up, up, radiance);
+        expected += radiance[1] / STEPS;
+    }
+    const double found = draw_folds(*state, 1, false, "storage=snorm16");
+    if (!(fabs(found / expected - 1) < 0.25))
+        fail_msg("%g instead of %g", found, expected);
 }
 
 int main(void) {
@@ -275,6 +300,7 @@ int main(void) {
         cmocka_unit_test(one_bin_has_polish_and_rough_patches),
         cmocka_unit_test(few_rough_texels_are_seen_far_from_highlights),
         cmocka_unit_test(what_lies_between_texels_is_not_clipped),
+        cmocka_unit_test(narrow_folds_are_read_at_many_points),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
 }
