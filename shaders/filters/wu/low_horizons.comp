@@ -25,7 +25,8 @@ const vec3 POINTS[3] = vec3[3](vec3(4.0, 1.0, 1.0) / 6.0, vec3(1.0, 4.0, 1.0) / 
 
 // Sines of the elevations between which a facet comes into sight, as if its horizons were spread
 // evenly: with their mean and deviation.
-vec2 horizons_of_facet(vec2 quad, vec2 third, float corner, vec2 slope, vec2 along, wu_level level) {
+vec2 horizons_of_facet(vec2 quad, vec2 third, float corner, vec2 slope, vec2 along,
+                       wu_level level) {
     vec2 spacing = vec2(level.spacing_x, level.spacing_y);
     float own = max(dot(slope * level.unit / spacing, along), 0.0);
     float period = float(max(wu.width, wu.height)), mean = 0.0, square = 0.0;
