@@ -46,8 +46,8 @@ typedef struct footprint_error {
     double mean_colour, bin_colours; ///< bins with the footprint's mean colour, or with their own
 } footprint_error;
 
-/// The errors, by light, of the bins that the mixture makes of some of the footprint's lobes, such as
-/// all.
+/// The errors, by light, of the bins that the mixture makes of some of the footprint's lobes, such
+/// as all.
 void passes_footprint_compare(const footprint *patch, const plane_sample *lobes, uint32_t count,
                               const plane_mixture *mixture,
                               footprint_error errors[FOOTPRINT_LIGHTS]);
