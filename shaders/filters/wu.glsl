@@ -204,8 +204,16 @@ float weights[WU_LOBES];
 // What normals get of a light and show to the viewer, and what they get.
 vec2 light_of_facing(vec3 light) {
     vec2 sum = vec2(0.0);
-    for (uint i = 0u; i < 8u * WU_LOBES; ++i)
-        sum += vec2(facing[i].w, weights[i / 8u]) * max(dot(facing[i].xyz, light), 0.0);
+    for (uint i = 0u; i < WU_LOBES; ++i) {
+        float got = 0.0;
+        for (uint k = 0u; k < 8u; ++k) {
+            vec4 normal = facing[8u * i + k];
+            float cosine = max(dot(normal.xyz, light), 0.0);
+            sum.x += normal.w * cosine;
+            got += cosine;
+        }
+        sum.y += weights[i] * got;
+    }
     return sum;
 }
 
@@ -266,7 +274,8 @@ void add_mirrored_light(uint level, uint cell, float weight, seen_facets seen, f
                         surface_point surface, float width) {
     vec3 viewer = relief_from_tangent(drawn.outgoing);
     float factor = weight * mirror_scaling_of_cell(level, cell) * mirrors_below_table(viewer) /
-                   part_below_table(viewer), parts[4];
+                   max(part_below_table(viewer), 1e-6);
+    float parts[4];
     for (uint k = 0u; k < LIGHTS_AT_ONCE; ++k)
         parts[k] = factor * scaling[k] *
                    mirrors_below_table(relief_from_tangent(drawn.incoming[k])) *
