@@ -24,18 +24,9 @@ typedef struct host_fixture {
 static const VkImageUsageFlags transfers =
     VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
-/// A square with a mask over another.
 static lobe_scene *masked_scene(void) {
-    static const float raised[16] = {
-        [0] = 1, [5] = 1, [10] = 1, [12] = 0.5f, [13] = 0.3f, [15] = 1};
     lobe_scene *scene = scene_begin();
-    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0);
-    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.4, 131));
-    scene_add_square(scene, &material, 2, NULL);
-    material.base_colour_map = scene_add_map(scene, random_map(32, 32, 0, 1, 132));
-    material.alpha_mask = true;
-    material.alpha_cutoff = 0.5f;
-    scene_add_square(scene, &material, 2, raised);
+    scene_add_masked_squares(scene, 2);
     scene_add_sun(scene, (double[]){0.2, 1, 0.1}, 2);
     scene_look_along(scene);
     scene->background[2] = 0.75f;

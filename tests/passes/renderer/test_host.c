@@ -254,18 +254,9 @@ static void several_samples_are_drawn_over_what_the_host_drew(void **state) {
     lobe_frame_free(&expected);
 }
 
-/// A square over another whose mask lets it through.
 static lobe_scene *masked_scene(void) {
-    static const float raised[16] = {
-        [0] = 1, [5] = 1, [10] = 1, [12] = 0.5f, [13] = 0.3f, [15] = 1};
     lobe_scene *scene = scene_begin();
-    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0);
-    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.4, 131));
-    scene_add_square(scene, &material, 1, NULL);
-    material.base_colour_map = scene_add_map(scene, random_map(32, 32, 0, 1, 132));
-    material.alpha_mask = true;
-    material.alpha_cutoff = 0.5f;
-    scene_add_square(scene, &material, 1, raised);
+    scene_add_masked_squares(scene, 1);
     scene_look_down(scene, 3);
     scene_end(scene);
     return scene;

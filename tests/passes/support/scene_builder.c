@@ -84,6 +84,18 @@ void scene_add_square(lobe_scene *scene, const lobe_material *material, double t
     require(scenes_add_instance(scene, mesh_index, material_index, transform, NULL));
 }
 
+void scene_add_masked_squares(lobe_scene *scene, double tiles) {
+    static const float raised[16] = {
+        [0] = 1, [5] = 1, [10] = 1, [12] = 0.5f, [13] = 0.3f, [15] = 1};
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.5, 0);
+    material.normal_map = scene_add_map(scene, random_normal_map(32, 32, 0.4, 131));
+    scene_add_square(scene, &material, tiles, NULL);
+    material.base_colour_map = scene_add_map(scene, random_map(32, 32, 0, 1, 132));
+    material.alpha_mask = true;
+    material.alpha_cutoff = 0.5f;
+    scene_add_square(scene, &material, tiles, raised);
+}
+
 void scene_add_sphere(lobe_scene *scene, const lobe_material *material, double tiles) {
     lobe_mesh mesh;
     uint32_t mesh_index, material_index;

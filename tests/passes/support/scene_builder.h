@@ -24,6 +24,8 @@ lobe_texture_use scene_add_map(lobe_scene *scene, lobe_image image);
 /// `tiles` along +X and +Z; so the tangent frame is (+X, -Z, +Y). `transform`: NULL for none.
 void scene_add_square(lobe_scene *scene, const lobe_material *material, double tiles,
                       const float transform[16]);
+/// A dielectric one with random normals, and above a part of it another, whose mask has holes.
+void scene_add_masked_squares(lobe_scene *scene, double tiles);
 
 /// A sphere around the origin of radius 1 m, with `tiles` of texture coordinates from pole to pole.
 void scene_add_sphere(lobe_scene *scene, const lobe_material *material, double tiles);
