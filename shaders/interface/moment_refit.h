@@ -42,10 +42,11 @@ INTERFACE_SIZE(survey_extremes, 32)
 INTERFACE_OFFSET(survey_extremes, factors, 16)
 
 // Where maps are interpolated, units of bins must hold what lies between texels of two bins: so
-// many steps from one's middle to the other's are looked at, each with the sharpest and the
-// broadest lobe.
+// many steps from one's middle to the other's are looked at, each with lobes from the sharpest to
+// the broadest, as of those a bin may have only what is between.
 #define BETWEEN_STEPS  8
-#define BETWEEN_PLACES (2 * (BETWEEN_STEPS - 1))
+#define BETWEEN_WIDTHS 8
+#define BETWEEN_PLACES (BETWEEN_WIDTHS * (BETWEEN_STEPS - 1))
 
 // Push constants of moment_refit.
 struct refit_constants {

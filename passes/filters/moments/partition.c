@@ -68,14 +68,16 @@ static void reach_corners(const plane_range *range, const plane_mixture *m,
 /// there gets it.
 static void reach_between(const plane_range *range, const plane_mixture *m,
                           const moment_partition *partition, bin_reach *reaches) {
+    const double least = least_variance(range);
     for (uint32_t pair = 0; pair < m->count * m->count; pair++) {
         const double *from = m->components[pair / m->count].mean;
         const double *to = m->components[pair % m->count].mean;
         for (uint32_t i = 0; i < BETWEEN_PLACES; i++) {
-            const double part = (i / 2 + 1) / (double)BETWEEN_STEPS;
+            const double part = (i / BETWEEN_WIDTHS + 1) / (double)BETWEEN_STEPS;
+            const double width = i % BETWEEN_WIDTHS / (double)(BETWEEN_WIDTHS - 1);
             const plane_sample between = {
                 .place = {from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])},
-                .variance = i & 1 ? range->broadest : least_variance(range)};
+                .variance = least * pow(range->broadest / least, width)};
             reach_sample(&between, m, partition, reaches);
         }
     }

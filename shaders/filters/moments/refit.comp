@@ -340,9 +340,11 @@ vec2 origin_of(uint index, progress at) {
 // A place between the middles of two bins, for units. Without weight.
 vec4 place_between(plane_range range, progress at, uint index) {
     uint pair = index / BETWEEN_PLACES, place = index % BETWEEN_PLACES;
-    float part = float(place / 2u + 1u) / float(BETWEEN_STEPS);
+    float part = float(place / BETWEEN_WIDTHS + 1) / float(BETWEEN_STEPS);
+    float width = float(place % BETWEEN_WIDTHS) / float(BETWEEN_WIDTHS - 1);
+    float least = 1.0 / (range.sharpest * range.sharpest);
     return vec4(mix(origin_of(pair / at.count, at), origin_of(pair % at.count, at), part),
-                (place & 1u) != 0u ? range.broadest : 1.0 / (range.sharpest * range.sharpest), 0.0);
+                least * pow(range.broadest / least, width), 0.0);
 }
 
 uint between_count(progress at) {

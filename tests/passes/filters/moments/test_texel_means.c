@@ -1,6 +1,6 @@
 // The filter "moments" at its defaults against the mean of what the texels reflect, where the mean
 // of their parameters misses it: few steep texels in a polish, colours that go with directions,
-// meshes that tint metal, several widths in a bin, normals between those of texels.
+// meshes that tint metal, several widths in a bin, normals and widths between those of texels.
 
 #include "tests/passes/support/fixture.h"
 
@@ -273,6 +273,62 @@ static void what_lies_between_texels_is_not_clipped(void **state) {
     }
 }
 
+/// Far from the highlight. `before`: other texels, of the frame before; or NULL.
+static double draw_interpolated(fixture *f, const plane *p, const plane *before,
+                                const char *storage) {
+    static const uint32_t maps[] = {0, 1};
+    const double up[3] = {0, 0, 1};
+    double incoming[3];
+    slope_plane_direction(60, 0, incoming);
+    lobe_scene *scene = scene_of(before ? before : p, up);
+    scene->materials[0].normal_map.nearest = false;
+    scene->materials[0].metallic_roughness_map.nearest = false;
+    slope_plane_add_sun(scene, incoming, 1);
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    double green = draw_once(f, storage);
+    if (before) {
+        lobe_scene *other = scene_of(p, up);
+        for (int i = 0; i < 2; i++)
+            memcpy(scene->images[maps[i]].image.texels, other->images[maps[i]].image.texels,
+                   TEXELS * lobe_format_size(LOBE_FORMAT_RGBA32_FLOAT));
+        lobe_scene_destroy(&other);
+        assert_int_equal(lobe_renderer_update_scene(
+                             f->renderer, &(lobe_scene_changes){.images = maps, .image_count = 2}),
+                         LOBE_OK);
+        green = draw_once(f, storage);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+    return green;
+}
+
+/// Between polish and rough texels lie widths that no texel has. Bins that the host fits, and the
+/// device, to texels that lean to the other side before.
+static void widths_between_texels_are_not_clipped(void **state) {
+    enum { EACH = TEXELS / 64 };
+    static const texel_kind kinds[2][5] = {
+        {{0, 0.05f, 1, {1, 1, 1}, TEXELS - 4 * EACH},
+         {12, 0.95f, 1, {1, 1, 1}, EACH},
+         {-12, 0.95f, 1, {1, 1, 1}, EACH},
+         {25, 0.95f, 1, {1, 1, 1}, EACH},
+         {-25, 0.95f, 1, {1, 1, 1}, EACH}},
+        {{0, 0.05f, 1, {1, 1, 1}, TEXELS - 4 * EACH},
+         {10, 0.95f, 1, {1, 1, 1}, EACH},
+         {-14, 0.95f, 1, {1, 1, 1}, EACH},
+         {23, 0.95f, 1, {1, 1, 1}, EACH},
+         {-27, 0.95f, 1, {1, 1, 1}, EACH}},
+    };
+    const plane p = {kinds[0], 5, NULL, {1, 1, 1}}, before = {kinds[1], 5, NULL, {1, 1, 1}};
+    for (int changes = 0; changes < 2; changes++) {
+        const plane *first = changes ? &before : NULL;
+        const double found = draw_interpolated(*state, &p, first, "storage=snorm16");
+        const double expected = draw_interpolated(*state, &p, first, "storage=float32");
+        if (!(fabs(found / expected - 1) < 0.1))
+            fail_msg("%s: %g instead of %g", changes ? "changed" : "new", found, expected);
+    }
+}
+
 /// Of folds of one texel all is interpolated: two points of each show only two normals.
 static void narrow_folds_are_read_at_many_points(void **state) {
     enum { STEPS = 256 };
@@ -300,6 +356,7 @@ int main(void) {
         cmocka_unit_test(one_bin_has_polish_and_rough_patches),
         cmocka_unit_test(few_rough_texels_are_seen_far_from_highlights),
         cmocka_unit_test(what_lies_between_texels_is_not_clipped),
+        cmocka_unit_test(widths_between_texels_are_not_clipped),
         cmocka_unit_test(narrow_folds_are_read_at_many_points),
     };
     return cmocka_run_group_tests(tests, fixture_create, fixture_destroy);
