@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "tests/engine/support/host_device.h"
+#include "tests/passes/host/host_renderer.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -37,15 +38,12 @@ static lobe_scene *masked_scene(void) {
 static int open_host(void **state) {
     host_fixture *f = calloc(1, sizeof *f);
     *state = f;
-    host_device_open(&f->host);
-    f->passes.device = host_device_import(&f->host);
+    f->passes.renderer = host_renderer_open(&f->host, &f->passes.device);
     f->scene = masked_scene();
     f->other = f->scene->camera;
     f->other.eye[0] += 0.3f;
     f->other.eye[1] += 0.2f;
-    return lobe_renderer_create(f->passes.device, &f->host.recorder.host, &f->passes.renderer) !=
-               LOBE_OK ||
-           lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
+    return lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
 }
 
 static int close_host(void **state) {

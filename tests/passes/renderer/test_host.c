@@ -10,6 +10,7 @@
 #include <lobe/colour.h>
 
 #include "tests/engine/support/host_device.h"
+#include "tests/passes/host/host_renderer.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 
@@ -46,15 +47,12 @@ static lobe_scene *small_scene(void) {
 static int open_host(void **state) {
     host_fixture *f = calloc(1, sizeof *f);
     *state = f;
-    host_device_open(&f->host);
-    f->passes.device = host_device_import(&f->host);
+    f->passes.renderer = host_renderer_open(&f->host, &f->passes.device);
     f->scene = small_scene();
     f->colour =
         host_image_create(&f->host, VK_FORMAT_R32G32B32A32_SFLOAT, SIZE, SIZE, colour_usage);
     f->depth = host_image_create(&f->host, VK_FORMAT_D32_SFLOAT, SIZE, SIZE, depth_usage);
-    return lobe_renderer_create(f->passes.device, &f->host.recorder.host, &f->passes.renderer) !=
-               LOBE_OK ||
-           lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
+    return lobe_renderer_set_scene(f->passes.renderer, f->scene) != LOBE_OK;
 }
 
 static int close_host(void **state) {

@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "passes/context/sample_pattern.h"
-#include "tests/passes/filters/moments/changed_map.h"
 #include "tests/passes/support/picture.h"
 #include "tests/passes/support/scene_builder.h"
 #include "tests/passes/support/shading_reference.h"
@@ -234,32 +233,44 @@ static double draw_once(fixture *f, const char *storage) {
     return green;
 }
 
-/// Straight from above, where no texel faces. `changes`: the texels were others in the frame
-/// before.
-static double draw_folds(fixture *f, uint32_t width, bool changes, const char *storage) {
-    static const uint32_t normals = 0;
+/// Draws a scene, which it destroys; or, unless `later` is NULL, the frame after that in which all
+/// texels change to those of `later`, which it destroys, too.
+static double draw_changing(fixture *f, lobe_scene *scene, lobe_scene *later, const char *storage) {
+    static const uint32_t maps[] = {0, 1, 2};
+    scene_end(scene);
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+    double green = draw_once(f, storage);
+    if (later) {
+        for (size_t i = 0; i < scene->image_count; i++)
+            memcpy(scene->images[i].image.texels, later->images[i].image.texels,
+                   TEXELS * lobe_format_size(LOBE_FORMAT_RGBA32_FLOAT));
+        const lobe_scene_changes changes = {.images = maps, .image_count = scene->image_count};
+        assert_int_equal(lobe_renderer_update_scene(f->renderer, &changes), LOBE_OK);
+        green = draw_once(f, storage);
+        lobe_scene_destroy(&later);
+    }
+    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+    lobe_scene_destroy(&scene);
+    return green;
+}
+
+static lobe_scene *folded_scene(uint32_t width, bool rows) {
     const double up[3] = {0, 0, 1};
     const lobe_material material = fold_material();
-    lobe_image image = folded_map(width, changes);
+    lobe_image image = folded_map(width, rows);
     lobe_material mapped;
     lobe_scene *scene = slope_plane(&material, &image, up, &mapped);
     lobe_image_free(&image);
     scene->materials[0].normal_map.nearest = false;
     slope_plane_add_sun(scene, up, 1);
-    scene_end(scene);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    double green = draw_once(f, storage);
-    if (changes) {
-        replace_texels(scene, normals, folded_map(width, false));
-        assert_int_equal(
-            lobe_renderer_update_scene(f->renderer,
-                                       &(lobe_scene_changes){.images = &normals, .image_count = 1}),
-            LOBE_OK);
-        green = draw_once(f, storage);
-    }
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
-    lobe_scene_destroy(&scene);
-    return green;
+    return scene;
+}
+
+/// Straight from above, where no texel faces. `changes`: the texels were others in the frame
+/// before.
+static double draw_folds(fixture *f, uint32_t width, bool changes, const char *storage) {
+    return draw_changing(f, folded_scene(width, changes),
+                         changes ? folded_scene(width, false) : NULL, storage);
 }
 
 /// The units of a bin hold what is interpolated between its texels and those of others: with bins
@@ -273,34 +284,22 @@ static void what_lies_between_texels_is_not_clipped(void **state) {
     }
 }
 
-/// Far from the highlight. `before`: other texels, of the frame before; or NULL.
-static double draw_interpolated(fixture *f, const plane *p, const plane *before,
-                                const char *storage) {
-    static const uint32_t maps[] = {0, 1};
+static lobe_scene *interpolated_scene(const plane *p) {
     const double up[3] = {0, 0, 1};
     double incoming[3];
     slope_plane_direction(60, 0, incoming);
-    lobe_scene *scene = scene_of(before ? before : p, up);
+    lobe_scene *scene = scene_of(p, up);
     scene->materials[0].normal_map.nearest = false;
     scene->materials[0].metallic_roughness_map.nearest = false;
     slope_plane_add_sun(scene, incoming, 1);
-    scene_end(scene);
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
-    double green = draw_once(f, storage);
-    if (before) {
-        lobe_scene *other = scene_of(p, up);
-        for (int i = 0; i < 2; i++)
-            memcpy(scene->images[maps[i]].image.texels, other->images[maps[i]].image.texels,
-                   TEXELS * lobe_format_size(LOBE_FORMAT_RGBA32_FLOAT));
-        lobe_scene_destroy(&other);
-        assert_int_equal(lobe_renderer_update_scene(
-                             f->renderer, &(lobe_scene_changes){.images = maps, .image_count = 2}),
-                         LOBE_OK);
-        green = draw_once(f, storage);
-    }
-    assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
-    lobe_scene_destroy(&scene);
-    return green;
+    return scene;
+}
+
+/// Far from the highlight. `before`: other texels, of the frame before; or NULL.
+static double draw_interpolated(fixture *f, const plane *p, const plane *before,
+                                const char *storage) {
+    return draw_changing(f, interpolated_scene(before ? before : p),
+                         before ? interpolated_scene(p) : NULL, storage);
 }
 
 /// Between polish and rough texels lie widths that no texel has. Bins that the host fits, and the
