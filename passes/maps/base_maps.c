@@ -95,7 +95,7 @@ void passes_base_maps_specialise_points(const device_material *material, bool ma
     passes_lobes_specialise(material, material->map_bits & ~unread, list);
     passes_specialise(list, SPECIALISE_INTERPOLATED, passes_base_maps_are_interpolated(material));
     passes_specialise(list, SPECIALISE_MASKED_LOBES, passes_lobes_are_masked(material));
-    passes_specialise(list, SPECIALISE_MASK_POINTS, many_points);
+    passes_specialise(list, SPECIALISE_MANY_POINTS, many_points);
 }
 
 void passes_grid_map_make(const filter_context *context, const struct lobe_grid_constants *extent,

@@ -23,7 +23,7 @@ INTERFACE_OFFSET(lobe_grid_constants, cutoff, 16)
 // both axes, in texels: see lib/map/texel_point.glsl.
 #define TEXEL_POINTS 2
 #define TEXEL_POINT  0.21132487
-// The same where a mask cuts texels.
-#define MASKED_TEXEL_POINTS 16
+// The same where a mask cuts texels, or few normals repeat.
+#define MANY_TEXEL_POINTS 16
 
 #endif

@@ -61,7 +61,7 @@
 #define SPECIALISE_COLOUR_SQUARE  SPECIALISE(77) // uint, COLOUR_SQUARE_...
 #define SPECIALISE_COLOUR_NORMALS SPECIALISE(54) // bool: diffuse colours may go with normals
 #define SPECIALISE_MASKED_LOBES   SPECIALISE(55) // bool: maps of lobes leave out what a mask cuts
-#define SPECIALISE_MASK_POINTS    SPECIALISE(56) // bool: texels are read at many points
+#define SPECIALISE_MANY_POINTS    SPECIALISE(56) // bool: texels are read at MANY_TEXEL_POINTS
 #define SPECIALISE_MASK_VARIES    SPECIALISE(57) // bool: a mask has several thresholds, and layers
 // The first of the filters' own, which are in their headers; no two of any filters are the same.
 #define SPECIALISE_FILTER SPECIALISE(40)

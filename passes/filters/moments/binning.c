@@ -57,7 +57,7 @@ static void add_level(const filter_context *context, uint32_t index,
 /// fewer points.
 static uint32_t finest_samples(const device_material *material, const moment_partition *partition,
                                uint32_t samples) {
-    const uint32_t points = 4 * (reads_many_points(material, partition)        ? MASKED_TEXEL_POINTS
+    const uint32_t points = 4 * (reads_many_points(material, partition)        ? MANY_TEXEL_POINTS
                                  : passes_base_maps_are_interpolated(material) ? TEXEL_POINTS
                                                                                : 1);
     return samples * samples < points ? samples : 0;

@@ -89,7 +89,7 @@ reduced_map passes_metal_means(const filter_context *context, uint32_t index) {
                       coloured ? METAL_MEANS_COLOURED : METAL_MEANS_ALONE);
     const bool masked = passes_lobes_are_masked(material) && !passes_widths_lie_apart(material);
     passes_specialise(&list, SPECIALISE_MASKED_LOBES, masked);
-    passes_specialise(&list, SPECIALISE_MASK_POINTS, masked && passes_mask_cuts_texels(material));
+    passes_specialise(&list, SPECIALISE_MANY_POINTS, masked && passes_mask_cuts_texels(material));
     const bool interpolated =
         passes_device_map_is_interpolated(material, MAP_WIDTH) ||
         ((coloured || masked) && passes_device_map_is_interpolated(material, MAP_BASE_COLOUR));

@@ -97,7 +97,7 @@ sample_points choose_points(ivec2 texel, uint kept, float weight) {
 }
 
 sample_points points_of_sample(ivec2 texel) {
-    if (!MASK_POINTS) {
+    if (!MANY_POINTS) {
         vec2 first = point_of_texel(texel, 0);
         return sample_points(vec2[](first, point_of_texel(texel, SAMPLE_POINTS - 1)),
                              weight_at(first));

@@ -63,7 +63,7 @@ grid_texel stored_texel(uvec2 position) {
     if (MASKED_LOBES)
         texel.weight = weight_of_alpha(finite_or_zero(fetch_texel(base_colour_map, position)).a,
                                        constants.alpha, constants.cutoff);
-    if (!MASK_POINTS && texel.weight < 1.0)
+    if (!MANY_POINTS && texel.weight < 1.0)
         texel.normal = vec3(0.0, 0.0, 1.0); // as normal_at
     return texel;
 }
@@ -71,7 +71,7 @@ grid_texel stored_texel(uvec2 position) {
 // What stands for a texel: itself or, where a mask may cut a part of it away, one of its points at
 // random.
 grid_texel read_texel(uvec2 position) {
-    if (!MASK_POINTS)
+    if (!MANY_POINTS)
         return stored_texel(position);
     uint index = hash(position.x + hash(position.y)) % uint(POINTS);
     vec2 point = map_point(ivec2(position), int(index), ivec2(constants.width, constants.height));
@@ -273,7 +273,7 @@ void main() {
         grid_texel texel = read_texel(position);
         sum += density_of(texel, usual);
         // Whatever is interpolated lies between the texels themselves.
-        if (MASK_POINTS)
+        if (MANY_POINTS)
             texel = stored_texel(position);
         extend(least, texel);
         if (BRIGHT_TEXELS)

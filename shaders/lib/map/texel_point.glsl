@@ -21,11 +21,12 @@ vec2 texel_point(int index) {
 
 // Under a mask, what is kept ends inside texels, wherever alpha meets the cutoff, and of normals
 // that are interpolated only those count that lie on one side. Points that suit products are then
-// wrong: both are about as far from the texel's centre. These fill the texel evenly: a lattice of
-// rank 1 (Sloan, Joe 1994, Lattice Methods for Multiple Integration), moved so that each quarter of
-// the texel has four.
-vec2 masked_texel_point(int index) {
-    float count = float(MASKED_TEXEL_POINTS), along = float(index);
+// wrong: both are about as far from the texel's centre. Where few normals repeat, as in folds of a
+// texel, they miss most of those in between. These fill the texel evenly: a lattice of rank 1
+// (Sloan, Joe 1994, Lattice Methods for Multiple Integration), moved so that each quarter of the
+// texel has four.
+vec2 many_texel_point(int index) {
+    float count = float(MANY_TEXEL_POINTS), along = float(index);
     return vec2((along + 0.5) / count, fract((3.0 * along + 5.5) / count)) - 0.5;
 }
 

@@ -36,7 +36,7 @@ typedef struct footprint {
 /// Whether lobes of this variance look different under the broad light.
 bool passes_footprint_is_sharp(double variance);
 
-/// Lets the weights of lobes add up to one.
+/// Scales the weights of lobes so that they add up to one.
 void passes_footprint_normalise(plane_sample *lobes, uint32_t count);
 /// Completes a footprint of which the first five are set.
 void passes_footprint_complete(footprint *patch);

@@ -328,7 +328,7 @@ static void widths_between_texels_are_not_clipped(void **state) {
     }
 }
 
-/// Of folds of one texel all is interpolated: two points of each show only two normals.
+/// Folds of one texel are interpolated everywhere, and two points of a texel show only two normals.
 static void narrow_folds_are_read_at_many_points(void **state) {
     enum { STEPS = 256 };
     const lobe_material material = fold_material();
