@@ -73,6 +73,7 @@ struct lobe_filter {
     const char *paper;
     /// File in shaders/filters that shades, without its ending.
     const char *shading;
+    float shading_cost; ///< about how many times as long as `direct` it shades a pixel; 0: as long
     const filter_knob *const *knobs; ///< its own, NULL-terminated; NULL: none
     bool supersamples;
     bool reads_heights;      ///< of materials, whether they displace geometry or not

@@ -22,6 +22,7 @@ const lobe_filter passes_filter_lean = {
     .summary = "one anisotropic Beckmann lobe, from moments of the maps' slopes",
     .paper = "Olano, Baker 2010, LEAN Mapping",
     .shading = "lean",
+    .shading_cost = 2.6f,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_MATERIAL,
     .knobs = knobs,

@@ -12,6 +12,7 @@ const lobe_filter passes_filter_mipmap = {
     .summary = "normals and widths averaged like colours: fast, and wrong",
     .paper = "Xu et al. 2017, section 5.2 (naive MIP-mapping)",
     .shading = "mipmap",
+    .shading_cost = 1.7f,
     .stretches_slopes = true,
     .knobs = knobs,
     .build = passes_parameter_averaging_build,

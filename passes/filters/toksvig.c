@@ -12,6 +12,7 @@ const lobe_filter passes_filter_toksvig = {
     .summary = "averaged normals, whose length widens the lobes about them",
     .paper = "Toksvig 2005, Mipmapping Normal Maps",
     .shading = "toksvig",
+    .shading_cost = 1.6f,
     .stretches_slopes = true,
     .knobs = knobs,
     .build = passes_parameter_averaging_build,

@@ -192,6 +192,7 @@ const lobe_filter passes_filter_displaced = {
     .paper = "after Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "displaced",
+    .shading_cost = 20.0f,
     .knobs = knobs,
     .reads_heights = true,
     .moves_masks = true,

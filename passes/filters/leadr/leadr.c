@@ -55,6 +55,7 @@ const lobe_filter passes_filter_leadr = {
     .summary = "one anisotropic Beckmann lobe, masked and lit as displaced facets are",
     .paper = "Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance Mapping",
     .shading = "leadr",
+    .shading_cost = 3.5f,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,
     .draws_waves = true,

@@ -366,6 +366,7 @@ const lobe_filter passes_filter_lobes = {
     .summary = "MIP-mapped mixtures of lobes, subdivided where a pixel needs it",
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
     .shading = "lobes",
+    .shading_cost = 2.7f,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

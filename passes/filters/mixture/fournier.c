@@ -64,6 +64,7 @@ const lobe_filter passes_filter_fournier = {
     .summary = "Phong peaks fitted under each texel, those of all texels around evaluated",
     .paper = "Fournier 1992, Normal Distribution Functions and Multiple Surfaces",
     .shading = "fournier",
+    .shading_cost = 9.0f,
     .knobs = knobs,
     .fetches_for_lights = true,
     .fetches_texels = true,

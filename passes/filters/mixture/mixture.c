@@ -139,6 +139,7 @@ const lobe_filter passes_filter_mixture = {
     .summary = "a mixture of Gaussians fitted to the lobes under each texel",
     .paper = "after Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "moments",
+    .shading_cost = 26.0f,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

@@ -63,6 +63,7 @@ const lobe_filter passes_filter_multi_leadr = {
     .paper = "after Dupuy et al. 2013, Linear Efficient Antialiased Displacement and Reflectance "
              "Mapping, and Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "multi_leadr",
+    .shading_cost = 14.0f,
     .loops_for_lights = true,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_SLOPES,

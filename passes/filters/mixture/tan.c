@@ -90,6 +90,7 @@ const lobe_filter passes_filter_tan = {
     .summary = "a mixture of round Gaussians of normals fitted under each texel",
     .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "tan",
+    .shading_cost = 2.6f,
     .knobs = knobs,
     .prepare = prepare,
     .adapts_to_texels = true,

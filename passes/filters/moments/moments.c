@@ -297,6 +297,7 @@ const lobe_filter passes_filter_moments = {
     .summary = "moments of lobes in bins fitted to the material",
     .paper = "",
     .shading = "moments",
+    .shading_cost = 5.0f,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

@@ -164,6 +164,7 @@ const lobe_filter passes_filter_wu = {
     .paper = "Wu et al. 2019, Accurate Appearance Preserving Prefiltering for Rendering "
              "Displacement-Mapped Surfaces",
     .shading = "wu",
+    .shading_cost = 45.0f,
     .knobs = knobs,
     .reads_heights = true,
     .prepare = prepare,

@@ -7,6 +7,8 @@
 #include "passes/upload/material_maps.h"
 #include "shaders/interface/picture/surfaces.h"
 
+#include <math.h>
+
 /// Choices of the knob.
 enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 
@@ -14,8 +16,9 @@ enum { WITH_TRIANGLES, DEFERRED, AUTOMATIC };
 #define LEAST_PIXELS (128u * 128u)
 /// Of a picture of surfaces, unless the knob asks for it.
 #define MOST_BYTES (256ull << 20)
-/// Where triangles are larger than that on average, shading with them wastes little.
-#define LARGEST_TRIANGLE 100.0 ///< pixels
+/// Where triangles are larger than that on average, a picture of surfaces takes longer than what
+/// `direct` wastes along their edges. Filters that take more time for a pixel waste more.
+#define LARGEST_TRIANGLE 60.0 ///< pixels
 
 /// Tiles of filtered maps, among them a mask's, are made after the picture that tells which.
 static bool can_cut_masks(const filter_context *context) {
@@ -45,10 +48,11 @@ static bool is_displaced(const draw_list *draws) {
 /// Hidden instances count: those that appear must not change the choice, and with it the pipelines.
 static bool has_small_triangles(const filter_context *context, const draw_list *draws) {
     const lobe_scene *scene = context->scene->scene;
+    const double largest = LARGEST_TRIANGLE * fmax(context->filter->shading_cost, 1.0);
     double triangles = 0;
     for (size_t i = 0; i < scene->instance_count; i++)
         triangles += scene->meshes[scene->instances[i].mesh].index_count / 3.0;
-    return triangles * LARGEST_TRIANGLE > (double)context->view.width * context->view.height ||
+    return triangles * largest > (double)context->view.width * context->view.height ||
            is_displaced(draws);
 }
 

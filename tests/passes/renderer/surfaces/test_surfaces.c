@@ -293,11 +293,12 @@ static void masks_cut_the_picture(void **state) {
 // ---------------------------------------------------------------------------------------------
 // The choice
 
-static size_t pictures_by_default(fixture *f, const char *filter, bool sphere, uint32_t extent) {
+/// `level`: of a sphere's triangles; 0: a square.
+static size_t pictures_by_default(fixture *f, const char *filter, int level, uint32_t extent) {
     lobe_scene *scene = scene_begin();
     const lobe_material material = bumpy(scene, 2);
-    if (sphere)
-        scene_add_sphere(scene, &material, 2);
+    if (level > 0)
+        scene_add_sphere(scene, &material, level);
     else
         scene_add_square(scene, &material, 2, NULL);
     scene_add_sun(scene, (double[]){0.4, 1, 0.3}, 2);
@@ -314,15 +315,17 @@ static size_t pictures_by_default(fixture *f, const char *filter, bool sphere, u
     return count;
 }
 
-/// Where triangles are small, in pictures that are not.
+/// Where triangles are small for what the filter takes, in pictures that are not.
 static void shading_is_deferred_where_that_is_faster(void **state) {
     fixture *f = *state;
     const bool cpu = lobe_device_describe(f->device)->type == LOBE_DEVICE_CPU;
-    assert_int_equal(pictures_by_default(f, "moments", true, 128), cpu);
-    assert_int_equal(pictures_by_default(f, "moments", false, 128), 0);
-    assert_int_equal(pictures_by_default(f, "direct", true, 128), cpu);
-    assert_int_equal(pictures_by_default(f, "reference", true, 128), cpu);
-    assert_int_equal(pictures_by_default(f, "moments", true, 64), 0);
+    assert_int_equal(pictures_by_default(f, "moments", 2, 128), cpu);
+    assert_int_equal(pictures_by_default(f, "moments", 1, 128), cpu);
+    assert_int_equal(pictures_by_default(f, "moments", 0, 128), 0);
+    assert_int_equal(pictures_by_default(f, "direct", 2, 128), cpu);
+    assert_int_equal(pictures_by_default(f, "direct", 1, 128), 0);
+    assert_int_equal(pictures_by_default(f, "reference", 2, 128), cpu);
+    assert_int_equal(pictures_by_default(f, "moments", 2, 64), 0);
 }
 
 int main(void) {
