@@ -710,30 +710,37 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
     return sqrt(max(covariance_along(normals.covariance, gradient, gradient), 1e-6));
 }
 
-// The part of what the facets of a bin mirror to the viewer that comes from above the relief, under
-// an even sky: masked as a sun is, in four directions that they mirror, nodes of normals that are
-// Gaussian in the plane (exact for polynomials of degree 3). `hidden`: what other facets hide of
-// it, in the map's frame.
-float lit_part(facet_spread facets[FACET_BINS], float depth, normal_spread seen,
-               out light_moments hidden) {
+// What is seen of all facets from four directions that those of a bin mirror to the viewer, and what
+// faces these: nodes of normals that are Gaussian in the plane (exact for polynomials of degree 3).
+struct mirrored_sky {
+    vec3 incoming[4];
+    vec4 seen; // 0 below the carrier
+    vec4 facing;
+};
+
+mirrored_sky sky_of_bin(facet_spread facets[FACET_BINS], normal_spread normals) {
     const vec2 NODES[4] = vec2[4](vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0),
                                   vec2(-1.0, -1.0));
-    vec2 place = plane_from_direction(normalize(seen.mean));
-    float x = sqrt(max(seen.covariance.x, 1e-12)), shear = seen.covariance.z / x;
-    float y = sqrt(max(seen.covariance.y - shear * shear, 1e-12));
-    float to_viewer = 1.0 + depth * lambda_of_seen(drawn.seen), sum = 0.0;
-    hidden = no_moments();
+    vec2 place = plane_from_direction(normalize(normals.mean));
+    float x = sqrt(max(normals.covariance.x, 1e-12)), shear = normals.covariance.z / x;
+    float y = sqrt(max(normals.covariance.y - shear * shear, 1e-12));
+    mirrored_sky sky;
     for (uint i = 0u; i < 4u; ++i) {
         vec2 node = NODES[i];
         vec3 normal = direction_from_plane(place + vec2(x * node.x, shear * node.x + y * node.y));
-        vec3 incoming = reflect(-drawn.viewer, normal);
-        vec2 areas = seen_and_facing(facets, incoming);
-        float lit = to_viewer * areas.x;
-        lit = incoming.z > 0.0 ? lit / (lit + depth * (areas.y - areas.x)) : 0.0;
-        sum += 0.25 * lit;
-        add_moments(hidden, 0.25 * (1.0 - lit), map_from_tangent(incoming));
+        sky.incoming[i] = reflect(-drawn.viewer, normal);
+        vec2 areas = seen_and_facing(facets, sky.incoming[i]);
+        sky.seen[i] = sky.incoming[i].z > 0.0 ? areas.x : 0.0;
+        sky.facing[i] = areas.y;
     }
-    return sum;
+    return sky;
+}
+
+// The parts of what the facets of a bin mirror to the viewer that come from above the relief, from
+// each of the four directions, under an even sky: masked as a sun is.
+vec4 lit_parts(mirrored_sky sky, float depth) {
+    vec4 lit = (1.0 + depth * lambda_of_seen(drawn.seen)) * sky.seen;
+    return lit / (lit + depth * (sky.facing - sky.seen));
 }
 
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
@@ -744,7 +751,8 @@ struct mirroring_bins {
     facet_spread facets[FACET_BINS]; // the same
     float depths[FACET_BINS]; // see find_depths()
     float seen[FACET_BINS];   // areas that are not masked
-    float lit[FACET_BINS];    // see lit_part()
+    mirrored_sky skies[FACET_BINS];
+    float lit[FACET_BINS];    // the mean of lit_parts()
     float areas[FACET_BINS];  // shadowed as well, of one width of microfacets
     float shares[FACET_BINS];   // of the bin's facets, those that face the viewer
     float shown;                // the sum of areas
@@ -864,8 +872,12 @@ mirroring_bins find_bins(surface_point surface) {
         bins.seen[k] = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
         facing += cosine;
         masked += bins.seen[k];
-        light_moments hidden;
-        bins.lit[k] = lit_part(bins.facets, bins.depths[k], seen, hidden);
+        bins.skies[k] = sky_of_bin(bins.facets, seen);
+        vec4 lit = lit_parts(bins.skies[k], bins.depths[k]);
+        bins.lit[k] = dot(lit, vec4(0.25));
+        light_moments hidden = no_moments();
+        for (uint i = 0u; i < 4u; ++i)
+            add_moments(hidden, 0.25 * (1.0 - lit[i]), map_from_tangent(bins.skies[k].incoming[i]));
         kept += bins.seen[k] * (1.0 - bins.lit[k]);
         bins.sent_on +=
             bins.seen[k] * directions_from_second(hidden, closure.basis.second, k);
@@ -891,14 +903,12 @@ mirroring_bins bins_of_width(mirroring_bins all, rough_facets rough[FACET_BINS],
     for (uint k = 0u; k < FACET_BINS; ++k) {
         everything += all.seen[k];
         bins.seen[k] = 0.0;
-        normal_spread normals = normals_of(bins.groups[k]);
-        normal_spread seen = seen_normals(normals, drawn.viewer, bins.shares[k]);
+        seen_normals(normals_of(bins.groups[k]), drawn.viewer, bins.shares[k]);
         if (bins.groups[k].size * bins.shares[k] <= 1e-4)
             continue;
         bins.seen[k] = all.scale * facing_area(spread_of(bins.groups[k]), drawn.viewer) /
                        (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
-        light_moments hidden;
-        bins.lit[k] = lit_part(all.facets, bins.depths[k], seen, hidden);
+        bins.lit[k] = dot(lit_parts(all.skies[k], bins.depths[k]), vec4(0.25));
         own += bins.seen[k];
     }
     bins.part = own / everything;
