@@ -668,6 +668,15 @@ float lambda_of_seen(float seen) {
     return 1.0 / max(seen, 1e-4) - 1.0;
 }
 
+// What is seen of a bin's facets of a depth, see find_depths(), where Lambda says how much of all
+// is hidden. Of those higher than a part u of the relief u^Lambda is seen. Over all heights -log(u)
+// falls exponentially, and the mean is 1 / (1 + Lambda). So it is taken to do in a bin, but of one
+// of two widths heights are closer together: a Gamma distribution of shape 2.
+float seen_at_depth(float depth, float lambda) {
+    float sum = 1.0 + 0.5 * depth * lambda;
+    return WIDTHS_SPLIT ? 1.0 / (sum * sum) : 1.0 / (1.0 + depth * lambda);
+}
+
 // What both directions see, if heights decide: Smith's masking with correlated heights, 1 / (1 +
 // Lambda + Lambda'), written with 1 / (1 + Lambda) of both.
 float seen_by_both(float first, float second) {
@@ -710,8 +719,9 @@ float deviation_of_mirrored(normal_spread normals, vec3 viewer) {
     return sqrt(max(covariance_along(normals.covariance, gradient, gradient), 1e-6));
 }
 
-// What is seen of all facets from four directions that those of a bin mirror to the viewer, and what
-// faces these: nodes of normals that are Gaussian in the plane (exact for polynomials of degree 3).
+// What is seen of all facets from four directions that those of a bin mirror to the viewer, and
+// what faces these: nodes of normals that are Gaussian in the plane (exact for polynomials of
+// degree 3).
 struct mirrored_sky {
     vec3 incoming[4];
     vec4 seen; // 0 below the carrier
@@ -737,10 +747,12 @@ mirrored_sky sky_of_bin(facet_spread facets[FACET_BINS], normal_spread normals) 
 }
 
 // The parts of what the facets of a bin mirror to the viewer that come from above the relief, from
-// each of the four directions, under an even sky: masked as a sun is.
+// each of the four directions, under an even sky: masked as a sun is, see seen_at_depth().
 vec4 lit_parts(mirrored_sky sky, float depth) {
-    vec4 lit = (1.0 + depth * lambda_of_seen(drawn.seen)) * sky.seen;
-    return lit / (lit + depth * (sky.facing - sky.seen));
+    float part = WIDTHS_SPLIT ? 0.5 * depth : depth;
+    vec4 lit = (1.0 + part * lambda_of_seen(drawn.seen)) * sky.seen;
+    lit /= lit + part * (sky.facing - sky.seen);
+    return WIDTHS_SPLIT ? lit * lit : lit;
 }
 
 // Of each bin, the area that faces the viewer, as it appears from there, masked, and shadowed:
@@ -869,7 +881,7 @@ mirroring_bins find_bins(surface_point surface) {
         if (size * bins.shares[k] <= 1e-4)
             continue;
         float cosine = facing_area(bins.facets[k], drawn.viewer);
-        bins.seen[k] = cosine / (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
+        bins.seen[k] = cosine * seen_at_depth(bins.depths[k], lambda_of_seen(drawn.seen));
         facing += cosine;
         masked += bins.seen[k];
         bins.skies[k] = sky_of_bin(bins.facets, seen);
@@ -906,8 +918,8 @@ mirroring_bins bins_of_width(mirroring_bins all, rough_facets rough[FACET_BINS],
         seen_normals(normals_of(bins.groups[k]), drawn.viewer, bins.shares[k]);
         if (bins.groups[k].size * bins.shares[k] <= 1e-4)
             continue;
-        bins.seen[k] = all.scale * facing_area(spread_of(bins.groups[k]), drawn.viewer) /
-                       (1.0 + bins.depths[k] * lambda_of_seen(drawn.seen));
+        bins.seen[k] = all.scale * facing_area(spread_of(bins.groups[k]), drawn.viewer) *
+                       seen_at_depth(bins.depths[k], lambda_of_seen(drawn.seen));
         bins.lit[k] = dot(lit_parts(all.skies[k], bins.depths[k]), vec4(0.25));
         own += bins.seen[k];
     }
@@ -1014,7 +1026,7 @@ void gather_facets(appearance fetched, surface_point surface, vec3 incoming[4]) 
             for (uint i = 0u; i < LIGHTS_AT_ONCE; ++i) {
                 add_seen_bin(drawn.lights[4u * w + i], bin,
                              half_vector(incoming[i], surface.outgoing), surface.outgoing,
-                             incoming[i], 1.0 / (1.0 + bins.depths[k] * hiding[i]));
+                             incoming[i], seen_at_depth(bins.depths[k], hiding[i]));
             }
         }
     }
