@@ -151,7 +151,7 @@ struct lobe_vulkan_image {
     const char *name;        ///< for errors, dumps and labels; copied; NULL: "host image"
     VkImage image;           ///< two-dimensional, one sample per texel
     VkFormat format;         ///< one that lobe_vulkan_format knows
-    uint32_t width, height;  ///< texels of the first level
+    uint32_t width, height;  ///< texels of the level `first_level`
     uint32_t layers, levels; ///< how many of them frames use; 0 means 1
     /// From which on: a frame may draw into a layer of an array, such as one eye's, or into a level
     /// of a MIP chain. The layouts below are those of the part that is used; the rest of the image
