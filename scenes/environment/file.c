@@ -9,6 +9,7 @@
 #include "scenes/environment/direction.h"
 #include "scenes/environment/environment.h"
 #include "scenes/environment/sky.h"
+#include "scenes/format/exr_file.h"
 #include "scenes/format/host_file.h"
 #include "scenes/format/radiance_hdr.h"
 
@@ -61,29 +62,14 @@ static lobe_result choose_layout(lobe_environment *environment, lobe_exr_environ
 // ---------------------------------------------------------------------------------------------
 // Files
 
-static lobe_result decode_exr(const char *name, const uint8_t *bytes, size_t size,
-                              const lobe_host *host, lobe_image *image,
-                              lobe_exr_environment *said) {
-    lobe_exr_contents contents;
-    lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, host, &contents);
-    if (result != LOBE_OK)
-        return result;
-    *said = contents.environment;
-    *image = contents.levels[0];
-    contents.levels[0] = (lobe_image){0};
-    lobe_exr_contents_free(&contents);
-    return LOBE_OK;
-}
-
 static lobe_result decode(const char *name, const uint8_t *bytes, size_t size,
                           const lobe_host *host, lobe_image *image, lobe_exr_environment *said) {
-    static const uint8_t exr[4] = {0x76, 0x2f, 0x31, 0x01};
     *said = LOBE_EXR_NO_ENVIRONMENT;
-    if (size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0)
-        return decode_exr(name, bytes, size, host, image, said);
+    if (scenes_exr_recognise(bytes, size))
+        return scenes_exr_decode(bytes, size, name, host, image, said);
     if (scenes_radiance_hdr_recognise(bytes, size))
         return scenes_radiance_hdr_decode(bytes, size, name, host, image);
-    return lobe_host_fail(host, size < sizeof exr ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
+    return lobe_host_fail(host, size < 4 ? LOBE_ERROR_MALFORMED : LOBE_ERROR_UNSUPPORTED,
                           "%s: neither an OpenEXR file nor a Radiance picture", name);
 }
 

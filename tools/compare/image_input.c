@@ -44,8 +44,23 @@ static lobe_result read_png(const char *path, const lobe_host *host, lobe_image 
     return result;
 }
 
+static lobe_result read_exr(const char *path, const lobe_host *host, lobe_image *image) {
+    lobe_exr_contents contents;
+    *image = (lobe_image){0};
+    lobe_result result = lobe_exr_read_contents(path, NULL, host, &contents);
+    if (result != LOBE_OK)
+        return result;
+    if (!lobe_image_to_rec709(&contents.levels[0], contents.chromaticities))
+        lobe_host_log(host, LOBE_LOG_WARNING,
+                      "%s: its chromaticities span no colours; taken as those of Rec. 709", path);
+    *image = contents.levels[0];
+    contents.levels[0] = (lobe_image){0};
+    lobe_exr_contents_free(&contents);
+    return LOBE_OK;
+}
+
 lobe_result image_input_read(const char *path, const lobe_host *host, image_input *input) {
     *input = (image_input){.high_dynamic_range = !is_png(path)};
-    return input->high_dynamic_range ? lobe_exr_read(path, NULL, host, &input->image)
+    return input->high_dynamic_range ? read_exr(path, host, &input->image)
                                      : read_png(path, host, &input->image);
 }

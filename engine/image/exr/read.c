@@ -314,6 +314,12 @@ static lobe_exr_environment find_environment(const exr_reader *reader) {
     return kind == EXR_ENVMAP_CUBE ? LOBE_EXR_CUBE : LOBE_EXR_LATITUDE_LONGITUDE;
 }
 
+static void read_chromaticities(const exr_reader *reader, float chromaticities[4][2]) {
+    exr_attr_chromaticities_t found = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    exr_attr_get_chromaticities(reader->input.context, reader->part, "chromaticities", &found);
+    memcpy(chromaticities, &found, sizeof found);
+}
+
 static lobe_result read_contents(const exr_origin *origin, const char *layer, const lobe_host *host,
                                  lobe_exr_contents *contents) {
     *contents = (lobe_exr_contents){0};
@@ -323,10 +329,12 @@ static lobe_result read_contents(const exr_origin *origin, const char *layer, co
         result = read_attributes(&reader, contents);
     if (result == LOBE_OK)
         result = read_levels(&reader, contents);
-    if (result == LOBE_OK)
+    if (result == LOBE_OK) {
         contents->environment = find_environment(&reader);
-    else
+        read_chromaticities(&reader, contents->chromaticities);
+    } else {
         lobe_exr_contents_free(contents);
+    }
     close_layer(&reader);
     return result;
 }

@@ -104,6 +104,9 @@ typedef struct lobe_exr_contents {
     lobe_image *levels;
     uint32_t level_count;
     lobe_exr_environment environment;
+    /// Of the file's RGB: CIE x and y of red, green, blue and white, as lobe_image_to_rec709 takes
+    /// them; those of Rec. 709 if the file does not say. Texels are as they are in the file.
+    float chromaticities[4][2];
     lobe_exr_attribute *attributes; ///< texts, numbers and integers, in the order of the file
     size_t attribute_count;
 } lobe_exr_contents;

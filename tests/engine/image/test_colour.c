@@ -169,6 +169,38 @@ static void the_heat_map_clamps(void **state) {
     assert_memory_equal(left, ((uint8_t[3]){0, 0, 0}), 3);
 }
 
+// ACEScg (S-2014-004) to Rec. 709 with Bradford's adaptation, as ACES' own transforms print it.
+static void primaries_become_those_of_rec_709(void **state) {
+    (void)state;
+    static const float acescg[4][2] = {
+        {0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f}, {0.32168f, 0.33767f}};
+    static const float expected[3][3] = {{1.70505f, -0.13026f, -0.02400f},
+                                         {-0.62179f, 1.14080f, -0.12897f},
+                                         {-0.08326f, -0.01055f, 1.15297f}};
+    float texels[4][4] = {{1, 0, 0, 0.5f}, {0, 1, 0, 0.5f}, {0, 0, 1, 0.5f}, {3, 3, 3, 0.5f}};
+    lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 4, 1, texels};
+    assert_true(lobe_image_to_rec709(&image, acescg));
+    for (int i = 0; i < 9; i++)
+        assert_float_equal(texels[i / 3][i % 3], expected[i / 3][i % 3], 2e-4f);
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(texels[3][i], 3, 1e-4f); // white stays white
+    for (int i = 0; i < 4; i++)
+        assert_true(texels[i][3] == 0.5f);
+}
+
+static void primaries_that_span_nothing_are_refused(void **state) {
+    (void)state;
+    static const float line[4][2] = {{0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}};
+    static const float none[4][2] = {{0}};
+    float texel[4] = {1, 2, 3, 4};
+    lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 1, 1, texel};
+    assert_false(lobe_image_to_rec709(&image, line));
+    assert_false(lobe_image_to_rec709(&image, none));
+    assert_false(lobe_image_to_rec709(&image, NULL));
+    assert_false(lobe_image_to_rec709(NULL, line));
+    assert_memory_equal(texel, ((const float[]){1, 2, 3, 4}), sizeof texel);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(srgb_is_the_standards_curve),
@@ -182,6 +214,8 @@ int main(void) {
         cmocka_unit_test(only_float_images_become_pictures),
         cmocka_unit_test(the_heat_map_grows_lighter_evenly),
         cmocka_unit_test(the_heat_map_clamps),
+        cmocka_unit_test(primaries_become_those_of_rec_709),
+        cmocka_unit_test(primaries_that_span_nothing_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -97,6 +97,35 @@ static void the_shape_tells_the_layout(void **state) {
     }
 }
 
+/// Says in the file's header that its green is blue and its blue green.
+static void exchange_primaries(const char *path) {
+    static const char type[] = "chromaticities\0chromaticities"; // the attribute's name and type
+    static const float exchanged[4] = {0.15f, 0.06f, 0.30f, 0.60f};
+    uint8_t *bytes;
+    size_t size, at = 0;
+    assert_int_equal(lobe_file_read(path, NULL, NULL, &bytes, &size), LOBE_OK);
+    while (memcmp(bytes + at, type, sizeof type) != 0)
+        at++;
+    memcpy(bytes + at + sizeof type + 4 + 2 * sizeof(float), exchanged, sizeof exchanged);
+    assert_int_equal(lobe_file_write(path, bytes, size, NULL), LOBE_OK);
+    lobe_release(bytes);
+}
+
+static void colours_of_other_primaries_are_converted(void **state) {
+    (void)state;
+    const char *path = temporary_folder_file(&test_folder, "primaries.exr");
+    log_recorder recorder;
+    lobe_environment *environment;
+    write_exr(path, 4, 2, LOBE_EXR_NO_ENVIRONMENT);
+    exchange_primaries(path);
+    assert_int_equal(open_file(path, &recorder, &environment), LOBE_OK);
+    const float *texel = (const float *)environment->image.texels + 4 * 6; // column 2, row 1
+    assert_float_equal(texel[0], 2, 1e-5f);
+    assert_float_equal(texel[1], 0.5f, 1e-5f);
+    assert_float_equal(texel[2], 1, 1e-5f);
+    lobe_environment_destroy(&environment);
+}
+
 static void unknown_shapes_are_refused(void **state) {
     (void)state;
     const uint32_t sizes[][2] = {{5, 7}, {40, 9}, {5, 31}, {1, 2}};
@@ -380,6 +409,7 @@ static void turning_is_counter_clockwise_from_above(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         IN_TEST_FOLDER(the_shape_tells_the_layout),
+        IN_TEST_FOLDER(colours_of_other_primaries_are_converted),
         IN_TEST_FOLDER(unknown_shapes_are_refused),
         IN_TEST_FOLDER(what_no_light_has_is_repaired_with_one_warning),
         IN_TEST_FOLDER(images_finer_than_needed_are_halved),
