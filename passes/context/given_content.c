@@ -35,6 +35,11 @@ static bool lacks_sign(const lobe_scene_image *image, lobe_format given) {
     return passes_normals_are_signed(image->normals) && !passes_format_has_sign(given);
 }
 
+static bool lacks_channel(const lobe_scene *scene, uint32_t index, lobe_format given) {
+    return lobe_format_channels(given) < passes_normal_channels(scene->images[index].normals) &&
+           passes_scene_has_normals_in(scene, index);
+}
+
 static void check_given(const filter_context *context, uint32_t index,
                         const lobe_image_description *given) {
     const lobe_scene *scene = context->scene->scene;
@@ -60,6 +65,12 @@ static void check_given(const filter_context *context, uint32_t index,
                         "%s: image '%s' has signed normals, but the host gave the format %s, which "
                         "has no sign",
                         scene->name, image->name, lobe_format_name(given->format));
+    else if (lacks_channel(scene, index, given->format))
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: image '%s' has normals of %u channels, but the host gave the format "
+                        "%s, which has %u",
+                        scene->name, image->name, passes_normal_channels(image->normals),
+                        lobe_format_name(given->format), lobe_format_channels(given->format));
 }
 
 static void check_image(const filter_context *context, uint32_t index) {

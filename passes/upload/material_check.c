@@ -18,6 +18,12 @@ static lobe_result check_texture(const number_owner *owner, const lobe_scene *sc
         return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
                               "%s: %s uses set %u of texture coordinates; there are 0 and 1",
                               owner->where, object, use->texture_coordinates);
+    if ((unsigned)use->wrap_u > LOBE_SCENE_WRAP_CLAMP ||
+        (unsigned)use->wrap_v > LOBE_SCENE_WRAP_CLAMP)
+        return lobe_host_fail(owner->host, LOBE_ERROR_MALFORMED,
+                              "%s: %s has a map with the wrapping %d, %d; there are %d to %d",
+                              owner->where, object, (int)use->wrap_u, (int)use->wrap_v,
+                              LOBE_SCENE_WRAP_REPEAT, LOBE_SCENE_WRAP_CLAMP);
     return passes_check_numbers(owner, "transform of a map", use->transform[0], 6, -INFINITY,
                                 INFINITY);
 }
@@ -33,6 +39,8 @@ static lobe_result check_textures(const number_owner *owner, const lobe_scene *s
     lobe_result result = LOBE_OK;
     for (size_t i = 0; !result && i < sizeof uses / sizeof *uses; i++)
         result = check_texture(owner, scene, uses[i]);
+    if (!result && material->normal_map.image >= 0)
+        result = passes_scene_check_normals(scene, (size_t)material->normal_map.image, owner->host);
     return result;
 }
 

@@ -67,6 +67,30 @@ bool passes_format_has_sign(lobe_format format) {
     }
 }
 
+uint32_t passes_normal_channels(lobe_normal_encoding encoding) {
+    return encoding == LOBE_NORMALS_UNSIGNED || encoding == LOBE_NORMALS_SIGNED ? 3 : 2;
+}
+
+bool passes_scene_has_normals_in(const lobe_scene *scene, size_t image) {
+    for (size_t i = 0; i < scene->material_count; i++)
+        if (scene->materials[i].normal_map.image == (int32_t)image)
+            return true;
+    return false;
+}
+
+lobe_result passes_scene_check_normals(const lobe_scene *scene, size_t index,
+                                       const lobe_host *host) {
+    const lobe_scene_image *image = &scene->images[index];
+    const uint32_t needed = passes_normal_channels(image->normals),
+                   channels = lobe_format_channels(image->image.format);
+    if (image->on_device || channels >= needed || channels == 0) // the image itself is refused
+        return LOBE_OK;
+    return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                          "%s: image '%s': normals of %u channels in the format %s, which has %u",
+                          scene->name, image->name, needed, lobe_format_name(image->image.format),
+                          channels);
+}
+
 /// What the host gives on the device has a format of its own, which is checked when it is given.
 static lobe_result check_encoding(const lobe_scene *scene, size_t index, const lobe_host *host) {
     const lobe_scene_image *image = &scene->images[index];
@@ -74,12 +98,14 @@ static lobe_result check_encoding(const lobe_scene *scene, size_t index, const l
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "%s: image '%s': there is no encoding of normals %d", scene->name,
                               image->name, (int)image->normals);
-    if (!passes_normals_are_signed(image->normals) || image->on_device ||
-        passes_format_has_sign(image->image.format))
-        return LOBE_OK;
-    return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
-                          "%s: image '%s': signed normals in the format %s, which has no sign",
-                          scene->name, image->name, lobe_format_name(image->image.format));
+    if (passes_normals_are_signed(image->normals) && !image->on_device &&
+        !passes_format_has_sign(image->image.format))
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: image '%s': signed normals in the format %s, which has no sign",
+                              scene->name, image->name, lobe_format_name(image->image.format));
+    return passes_scene_has_normals_in(scene, index)
+               ? passes_scene_check_normals(scene, index, host)
+               : LOBE_OK;
 }
 
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
@@ -225,6 +251,12 @@ lobe_result passes_scene_check_environment(const lobe_scene *scene, const lobe_h
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "%s: environment '%s' is not an image of four 32-bit floats",
                               scene->name, name);
+    double position[2];
+    if (!lobe_environment_position(scene->environment, (const double[]){0, 0, 1}, position))
+        return lobe_host_fail(
+            host, LOBE_ERROR_MALFORMED,
+            "%s: environment '%s': %ux%u texels do not have the shape of layout %d", scene->name,
+            name, image->width, image->height, (int)scene->environment->layout);
     for (size_t i = 0; i < (size_t)image->width * image->height * 4; i++) {
         if (i % 4 == 3 || (texels[i] >= 0 && isfinite(texels[i])))
             continue;

@@ -693,6 +693,8 @@ static void mistakes_are_named(void **state) {
     assert_refused(f, give_described, &image,
                    "signed normals, but the host gave the format RG16_UNORM, which has no sign");
     scene->images[0].normals = LOBE_NORMALS_UNSIGNED;
+    assert_refused(f, give_described, &image,
+                   "normals of 3 channels, but the host gave the format RG16_UNORM, which has 2");
     hash_of(f, "moments", &g);
     unset(f, &scene);
     giver_free(&g);

@@ -91,6 +91,19 @@ static void make_image_without_format(lobe_scene *scene) {
     scene->images[0].image.format = LOBE_FORMAT_NONE;
 }
 
+static void give_normals_two_channels(lobe_scene *scene) {
+    scene->images[0].image.format = LOBE_FORMAT_RG32_FLOAT;
+}
+
+static void give_normals_one_channel(lobe_scene *scene) {
+    scene->images[0].normals = LOBE_NORMALS_SIGNED_XY;
+    scene->images[0].image.format = LOBE_FORMAT_R32_FLOAT;
+}
+
+static void make_wrapping_unknown(lobe_scene *scene) {
+    scene->materials[0].normal_map.wrap_v = 3;
+}
+
 static void make_base_colour_nan(lobe_scene *scene) {
     scene->materials[0].base_colour[1] = NAN;
 }
@@ -137,6 +150,16 @@ static void make_environment_nan(lobe_scene *scene) {
     ((float *)scene->environment->image.texels)[4 * (4 + 2)] = NAN;
 }
 
+static void make_environment_no_column(lobe_scene *scene) {
+    scene_set_environment(scene, constant_map(4, 2, 1, 1, 1));
+    scene->environment->layout = LOBE_ENVIRONMENT_CUBE_COLUMN;
+}
+
+static void make_environment_layout_unknown(lobe_scene *scene) {
+    scene_set_environment(scene, constant_map(4, 2, 1, 1, 1));
+    scene->environment->layout = 77;
+}
+
 // What a host may change in every frame without announcing it.
 
 static void make_transform_nan(lobe_scene *scene) {
@@ -172,6 +195,9 @@ static void broken_scenes_are_refused(void **state) {
         {"texel 2, 7", make_texel_infinite},
         {"0x16 texels", make_image_empty},
         {"texels of NONE", make_image_without_format},
+        {"normals of 3 channels in the format RG32_FLOAT, which has 2", give_normals_two_channels},
+        {"normals of 2 channels in the format R32_FLOAT, which has 1", give_normals_one_channel},
+        {"a map with the wrapping 0, 3; there are 0 to 2", make_wrapping_unknown},
         {"'material': base_colour[1] is nan", make_base_colour_nan},
         {"emissive[2] is -1; expected a finite number of at least 0", make_emission_negative},
         {"normal_scale is -inf", make_normal_scale_infinite},
@@ -183,6 +209,8 @@ static void broken_scenes_are_refused(void **state) {
         {"roughness is 1.25", make_rough_beyond_one},
         {"transform of a map[5] is nan", make_map_transform_nan},
         {"'environment': texel 2, 1 has the value nan", make_environment_nan},
+        {"4x2 texels do not have the shape of layout 1", make_environment_no_column},
+        {"4x2 texels do not have the shape of layout 77", make_environment_layout_unknown},
         {"instance 0: transform[13] is nan", make_transform_nan},
         {"instance 0: its transform has the determinant 0", make_transform_degenerate},
         {"instance 0: the last row of its transform is (0, 0, -1, 1)", make_transform_projective},

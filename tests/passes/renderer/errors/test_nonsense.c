@@ -57,6 +57,7 @@ static void images(void **state) {
     lobe_image empty = {0}, other, image = {LOBE_FORMAT_RGBA32_FLOAT, 1, 1, texel};
     assert_true(lobe_srgb_encode(NAN) == 0 && lobe_srgb_decode(INFINITY) == 1);
     assert_true(lobe_luminance(NULL) == 0);
+    assert_false(lobe_image_to_rec709(NULL, NULL));
     lobe_heat_colour(NAN, colour);
     lobe_heat_colour(0, NULL);
     assert_int_equal(lobe_format_size((lobe_format)-1), 0);
