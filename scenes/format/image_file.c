@@ -6,6 +6,7 @@
 
 #include <lobe/file.h>
 
+#include "scenes/format/exr_file.h"
 #include "scenes/format/library_memory.h"
 #include "third_party/image_codec.h"
 
@@ -43,10 +44,10 @@ static lobe_result check_extent(const image_codec_extent *extent, size_t size, c
     return LOBE_OK;
 }
 
-static lobe_format choose_format(const image_codec_extent *extent, scene_image_use use) {
+static lobe_format choose_format(bool sixteen_bits, scene_image_use use) {
     if (use == SCENE_IMAGE_COLOUR)
         return LOBE_FORMAT_RGBA8_SRGB;
-    return extent->sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_UNORM;
+    return sixteen_bits ? LOBE_FORMAT_RGBA16_UNORM : LOBE_FORMAT_RGBA8_UNORM;
 }
 
 static lobe_result fail(const library_memory *memory, const char *name, const char *message,
@@ -74,7 +75,7 @@ lobe_result scenes_image_decode(const void *bytes, size_t size, const char *name
     lobe_result result = check_extent(&extent, size, name, host);
     if (result != LOBE_OK)
         return result;
-    lobe_format format = choose_format(&extent, use);
+    lobe_format format = choose_format(extent.sixteen_bits, use);
     result = lobe_image_allocate(image, format, extent.width, extent.height, host);
     if (result != LOBE_OK)
         return result;
@@ -94,7 +95,10 @@ lobe_result scenes_image_load(const char *path, scene_image_use use, const lobe_
     size_t size = 0;
     lobe_result result = lobe_file_read(path, NULL, host, &bytes, &size);
     if (result == LOBE_OK)
-        result = scenes_image_decode(bytes, size, path, use, host, image);
+        result =
+            scenes_exr_recognise(bytes, size)
+                ? scenes_exr_decode_map(bytes, size, path, choose_format(true, use), host, image)
+                : scenes_image_decode(bytes, size, path, use, host, image);
     lobe_release(bytes);
     return result;
 }

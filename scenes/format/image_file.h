@@ -23,7 +23,8 @@ typedef enum scene_image_use {
 lobe_result scenes_image_decode(const void *bytes, size_t size, const char *name,
                                 scene_image_use use, const lobe_host *host, lobe_image *image);
 
-/// The same for a file; also LOBE_ERROR_NOT_FOUND and LOBE_ERROR_READ.
+/// The same for a file, which may be OpenEXR too (see scenes_exr_decode_map); also
+/// LOBE_ERROR_NOT_FOUND and LOBE_ERROR_READ.
 lobe_result scenes_image_load(const char *path, scene_image_use use, const lobe_host *host,
                               lobe_image *image);
 

@@ -338,12 +338,12 @@ bool scenes_material_file_is_gltf(const material_file_content *content) {
 bool scenes_material_file_is_readable(const char *name) {
     const char *end = extension(name);
     return strcasecmp(end, ".png") == 0 || strcasecmp(end, ".jpg") == 0 ||
-           strcasecmp(end, ".jpeg") == 0;
+           strcasecmp(end, ".jpeg") == 0 || strcasecmp(end, ".exr") == 0;
 }
 
 bool scenes_material_file_is_other_image(const char *name) {
-    static const char *const extensions[] = {".exr", ".tif", ".tiff", ".tga",  ".bmp",
-                                             ".hdr", ".dds", ".ktx2", ".webp", ".psd"};
+    static const char *const extensions[] = {".tif", ".tiff", ".tga",  ".bmp", ".hdr",
+                                             ".dds", ".ktx2", ".webp", ".psd"};
     for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
         if (strcasecmp(extension(name), extensions[i]) == 0)
             return true;

@@ -47,7 +47,7 @@ bool scenes_material_file_is_packed(const material_file_content *content);
 /// red, if anything, occlusion.
 bool scenes_material_file_is_gltf(const material_file_content *content);
 
-/// Whether the extension is that of PNG or JPEG.
+/// Whether the extension is that of PNG, JPEG or OpenEXR.
 bool scenes_material_file_is_readable(const char *name);
 
 /// Whether the extension is of an image format that lobe does not read.

@@ -73,13 +73,64 @@ static lobe_result list_files(const folder_search *search) {
 // ---------------------------------------------------------------------------------------------
 // What the names say
 
+/// "1k", "2048", "jpg", "16bit": a form of the same material.
+static bool is_form(const char *word) {
+    static const char *const forms[] = {"png", "jpg",  "jpeg", "exr",  "tif", "tiff",
+                                        "512", "1024", "2048", "4096", "8192"};
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
+        if (strcmp(word, forms[i]) == 0)
+            return true;
+    const char *end = word;
+    while (isdigit((unsigned char)*end))
+        end++;
+    return end > word && (strcmp(end, "k") == 0 || strcmp(end, "bit") == 0);
+}
+
+/// The word before the resolution at which a name ends that says `workflow` last, as in Poliigon's
+/// "Bricks_COL_2K_METALNESS"; NULL: it does not end so.
+static const char *word_before_workflow(const material_name *name, const char *workflow) {
+    const size_t count = name->count;
+    const bool ends = count > 2 && strcmp(name->words[count - 1], workflow) == 0 &&
+                      is_form(name->words[count - 2]);
+    return ends ? name->words[count - 3] : NULL;
+}
+
+/// Whether names of different maps end with it: else it is a map ("Metal_1K_Metalness").
+static bool is_workflow(const material_files *found, const char *workflow) {
+    material_name first, name;
+    const char *map = NULL;
+    for (size_t i = 0; i < found->count; i++) {
+        scenes_material_name_split(found->files[i].name, map ? &name : &first);
+        const char *word = word_before_workflow(map ? &name : &first, workflow);
+        if (map && word && strcmp(word, map) != 0)
+            return true;
+        map = map ? map : word;
+    }
+    return false;
+}
+
+static void find_workflow(material_files *found) {
+    static const char *const workflows[] = {"metalness", "specular"};
+    for (size_t i = 0; !found->workflow && i < sizeof workflows / sizeof *workflows; i++)
+        if (is_workflow(found, workflows[i]))
+            found->workflow = workflows[i];
+}
+
+/// Without the workflow at its end.
+static void split_name(const material_files *found, const material_file *file,
+                       material_name *name) {
+    scenes_material_name_split(file->name, name);
+    if (found->workflow && word_before_workflow(name, found->workflow))
+        name->count--;
+}
+
 /// How many words all names begin with.
 static size_t count_common_words(const material_files *found) {
     material_name first, other;
-    scenes_material_name_split(found->files[0].name, &first);
+    split_name(found, &found->files[0], &first);
     size_t common = found->count > 1 ? first.count : 0;
     for (size_t i = 1; i < found->count; i++) {
-        scenes_material_name_split(found->files[i].name, &other);
+        split_name(found, &found->files[i], &other);
         size_t same = 0;
         while (same < common && same < other.count &&
                strcmp(first.words[same], other.words[same]) == 0)
@@ -94,7 +145,7 @@ static size_t count_common_words(const material_files *found) {
 static bool may_skip(const material_files *found, size_t skipped) {
     material_name name;
     for (size_t i = 0; i < found->count; i++) {
-        scenes_material_name_split(found->files[i].name, &name);
+        split_name(found, &found->files[i], &name);
         const material_file_content whole = scenes_material_name_parse(&name, 0);
         const material_file_content rest = scenes_material_name_parse(&name, skipped);
         if (name.count > skipped && scenes_material_file_is_map(&whole) &&
@@ -107,30 +158,18 @@ static bool may_skip(const material_files *found, size_t skipped) {
 /// What all names have in common is the material's name, which may contain words for maps.
 static void parse_names(material_files *found) {
     material_name name;
+    find_workflow(found);
     size_t skipped = found->count > 0 ? count_common_words(found) : 0;
     while (skipped > 0 && !may_skip(found, skipped))
         skipped--;
     for (size_t i = 0; i < found->count; i++) {
-        scenes_material_name_split(found->files[i].name, &name);
+        split_name(found, &found->files[i], &name);
         found->files[i].content = scenes_material_name_parse(&name, skipped);
     }
 }
 
 // ---------------------------------------------------------------------------------------------
 // One material
-
-/// "1k", "2048", "jpg", "16bit": a form of the same material.
-static bool is_form(const char *word) {
-    static const char *const forms[] = {"png", "jpg",  "jpeg", "exr",  "tif", "tiff",
-                                        "512", "1024", "2048", "4096", "8192"};
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
-        if (strcmp(word, forms[i]) == 0)
-            return true;
-    const char *end = word;
-    while (isdigit((unsigned char)*end))
-        end++;
-    return end > word && (strcmp(end, "k") == 0 || strcmp(end, "bit") == 0);
-}
 
 static bool is_filler(const char *word) {
     const map_word *known = scenes_material_map_word(word, strlen(word));
@@ -155,12 +194,13 @@ static void join_words(const material_name *name, size_t first, size_t end, char
 
 /// The name of the material: the words before the map, or after it where no file has any before.
 /// False if a file's name has none.
-static bool material_of(const material_file *file, bool after, char key[KEY_SIZE]) {
+static bool material_of(const material_files *found, const material_file *file, bool after,
+                        char key[KEY_SIZE]) {
     material_name name;
     key[0] = 0;
     if (!scenes_material_file_is_map(&file->content))
         return false;
-    scenes_material_name_split(file->name, &name);
+    split_name(found, file, &name);
     if (after)
         join_words(&name, file->content.end, name.count, key);
     else
@@ -173,7 +213,7 @@ static size_t count_files_of(const material_files *found, size_t count, bool aft
     char other[KEY_SIZE];
     size_t same = 0;
     for (size_t i = 0; i < count; i++)
-        same += material_of(&found->files[i], after, other) && strcmp(other, key) == 0;
+        same += material_of(found, &found->files[i], after, other) && strcmp(other, key) == 0;
     return same;
 }
 
@@ -183,7 +223,8 @@ static size_t list_materials(const material_files *found, bool after, char *list
     char key[KEY_SIZE];
     size_t count = 0, length = 0;
     for (size_t i = 0; i < found->count; i++) {
-        if (!material_of(&found->files[i], after, key) || count_files_of(found, i, after, key) > 0)
+        if (!material_of(found, &found->files[i], after, key) ||
+            count_files_of(found, i, after, key) > 0)
             continue;
         if (after && count_files_of(found, found->count, after, key) < 2)
             continue;
@@ -246,9 +287,12 @@ static lobe_result require_maps(const folder_search *search) {
         if (search->found->sources[map].file && map != MATERIAL_MAP_DISPLACEMENT)
             return LOBE_OK;
     return lobe_host_fail(search->host, LOBE_ERROR_NOT_FOUND,
-                          "%s: no PNG or JPEG file is named after a map (albedo, normal, "
-                          "roughness, metallic, arm, ao, emissive)",
-                          search->path);
+                          "%s: no PNG, JPEG or OpenEXR file is named after a map (albedo, "
+                          "normal, roughness, metallic, arm, ao, emissive)%s",
+                          search->path,
+                          search->found->sources[MATERIAL_MAP_DISPLACEMENT].file
+                              ? "; heights alone are no material"
+                              : "");
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -314,8 +358,9 @@ static void log_ignored(const folder_search *search) {
         const material_file *file = &search->found->files[i];
         const bool map = scenes_material_file_is_map(&file->content);
         if (!file->readable && map)
-            lobe_host_log(search->host, LOBE_LOG_WARNING, "%s/%s: not read, neither PNG nor JPEG",
-                          search->path, file->name);
+            lobe_host_log(search->host, LOBE_LOG_WARNING,
+                          "%s/%s: not read, neither PNG, JPEG nor OpenEXR", search->path,
+                          file->name);
         else if (!is_source(search->found, file))
             add_item(&list, "%s (%s)", file->name,
                      map                    ? "there is another one for this"

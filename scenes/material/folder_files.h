@@ -11,7 +11,7 @@
 /// An image file of a folder, and what its name says.
 typedef struct material_file {
     char *name;
-    bool readable; ///< PNG or JPEG
+    bool readable; ///< PNG, JPEG or OpenEXR
     material_file_content content;
 } material_file;
 
@@ -24,6 +24,9 @@ typedef struct material_source {
 typedef struct material_files {
     material_file *files; ///< in alphabetical order
     size_t count;
+    /// The word after the resolution that names of several maps end with, and that names none;
+    /// static. NULL: there is none.
+    const char *workflow;
     /// Of two maps that serve the same purpose (normals, roughness), only one has a source.
     material_source sources[MATERIAL_MAP_COUNT];
 } material_files;

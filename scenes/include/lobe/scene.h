@@ -41,6 +41,8 @@ typedef enum lobe_normal_encoding {
 } lobe_normal_encoding;
 
 /// An image of the scene. Rows run downwards; texture coordinate (0, 0) is its top left corner.
+/// Channels that its format lacks are 0, alpha is 1: R8_UNORM is red, as a colour. A normal map
+/// must have the channels of its encoding.
 typedef struct lobe_scene_image {
     char *name; ///< where it comes from, for messages
     lobe_image image;
@@ -357,12 +359,14 @@ LOBE_API lobe_result lobe_scene_open(const char *scene, const lobe_host *host, l
 
 /// A carrier with the PBR maps of a folder, recognised by the names that ambientCG, Poly Haven,
 /// Quixel, Poliigon, freepbr, Substance, Unity and Unreal give their files (albedo, normal, rough,
-/// metal, gloss, arm, metallicSmoothness, disp, ...). Packed files are taken apart; gloss becomes
-/// roughness. Notices say which file became which map, and which images were ignored. At least one
-/// map besides that of heights must be found; maps of several materials are LOBE_ERROR_UNSUPPORTED,
-/// with a line that lists the materials. Heights are scaled to be as steep as the normal map if
-/// there is one of their extent that agrees with them; else by 0.05. As the folder has no light,
-/// the sky is added, turned so that its sun shows the relief. Errors as for lobe_scene_open.
+/// metal, gloss, arm, metallicSmoothness, disp, ...): PNG, JPEG, or OpenEXR, whose texels are
+/// clamped to [0, 1]; normals and values keep 16 bits, colours 8. Packed files are taken apart;
+/// gloss becomes roughness. Notices say which file became which map, and which images were ignored.
+/// At least one map besides that of heights must be found; maps of several materials are
+/// LOBE_ERROR_UNSUPPORTED, with a line that lists the materials. Heights are scaled to be as steep
+/// as the normal map if there is one of their extent that agrees with them; else by 0.05. As the
+/// folder has no light, the sky is added, turned so that its sun shows the relief. Errors as for
+/// lobe_scene_open.
 LOBE_API lobe_result lobe_scene_open_material(const char *folder, lobe_carrier carrier,
                                               const lobe_host *host, lobe_scene **result);
 

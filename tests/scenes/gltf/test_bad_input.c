@@ -18,7 +18,7 @@ static void files_that_are_not_there_or_cannot_be_read(void **state) {
                            "neither a built-in scene nor a file");
     gltf_fixture_must_fail(fixture, "absent/below.gltf", LOBE_ERROR_NOT_FOUND,
                            "neither a built-in scene nor a file");
-    gltf_fixture_must_fail(fixture, ".", LOBE_ERROR_NOT_FOUND, "no PNG or JPEG file");
+    gltf_fixture_must_fail(fixture, ".", LOBE_ERROR_NOT_FOUND, "no PNG, JPEG or OpenEXR file");
     assert_int_equal(mkfifo(gltf_fixture_path(fixture, "pipe.glb"), 0600), 0);
     gltf_fixture_must_fail(fixture, "pipe.glb", LOBE_ERROR_READ, "not a regular file");
     // A sparse file is huge without taking up space.

@@ -2,10 +2,13 @@
 
 #include "tests/scenes/material/folder_fixture.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <lobe/exr.h>
 
 #include "tests/scenes/scene/scene_check.h"
 
@@ -60,6 +63,28 @@ static void metallic_roughness_has_no_occlusion(void **state) {
     assert_int_equal(image_of_use(fixture, &material->emissive_map)->format,
                      LOBE_FORMAT_RGBA8_SRGB);
     assert_true(material->emissive[0] == 1);
+}
+
+static void workflow_is_no_map(void **state) {
+    folder_fixture *fixture = *state;
+    write_map(fixture, "MetalBricks_COL_2K_METALNESS.png", 2, 2, 1, 2, 3);
+    write_map(fixture, "MetalBricks_NRM_2K_METALNESS.png", 2, 2, 128, 140, 250);
+    write_map(fixture, "MetalBricks_METALNESS_2K_METALNESS.png", 2, 2, 9, 9, 9);
+    write_map(fixture, "MetalBricks_ROUGHNESS_2K_METALNESS.png", 2, 2, 8, 8, 8);
+    const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
+    assert_texel(image_of_use(fixture, &material->base_colour_map), 1, 2, 3);
+    assert_texel(image_of_use(fixture, &material->normal_map), 128, 140, 250);
+    assert_texel(image_of_use(fixture, &material->metallic_roughness_map), 255, 8, 9);
+}
+
+static void metalness_after_a_resolution_is_a_map(void **state) {
+    folder_fixture *fixture = *state;
+    write_map(fixture, "Metal01_1K_Color.png", 2, 2, 1, 2, 3);
+    write_map(fixture, "Metal01_1K_Metalness.png", 2, 2, 9, 9, 9);
+    write_map(fixture, "Metal01_2K_Metalness.png", 2, 2, 7, 7, 7);
+    const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
+    assert_texel(image_of_use(fixture, &material->base_colour_map), 1, 2, 3);
+    assert_texel(image_of_use(fixture, &material->metallic_roughness_map), 255, 255, 9);
 }
 
 static void directx_normals_are_turned_up(void **state) {
@@ -230,13 +255,50 @@ static void a_folder_is_a_scene(void **state) {
     lobe_scene_destroy(&opened);
 }
 
+static void write_exr(const folder_fixture *fixture, const char *name, const float rgba[8]) {
+    char path[512];
+    folder_file_path(fixture, name, path);
+    const lobe_image image = {
+        .format = LOBE_FORMAT_RGBA32_FLOAT, .width = 2, .height = 1, .texels = (float *)rgba};
+    const lobe_exr_layer layer = {.image = &image, .depth = LOBE_EXR_FLOAT};
+    const lobe_exr_parameters parameters = {.layers = &layer, .layer_count = 1};
+    assert_int_equal(lobe_exr_write(path, &parameters, NULL), LOBE_OK);
+}
+
+static void maps_may_be_openexr(void **state) {
+    folder_fixture *fixture = *state;
+    write_exr(fixture, "wall_diff_1k.exr", (const float[]){0.5f, 0, 1, 1, 0.25f, 0, 1, 1});
+    write_exr(fixture, "wall_nor_gl_1k.exr", (const float[]){0.5f, 0.25f, 1, 1, 0.5f, 0, 1, 1});
+    write_exr(fixture, "wall_rough_1k.exr", (const float[]){0.2f, 0.2f, 0.2f, 1, 0.8f, 1, 1, 1});
+    const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
+    assert_int_equal(fixture->recorder.warnings, 0);
+    const lobe_image *colour = image_of_use(fixture, &material->base_colour_map);
+    assert_int_equal(colour->format, LOBE_FORMAT_RGBA8_SRGB);
+    assert_memory_equal(colour->texels, ((const uint8_t[]){188, 0, 255, 255, 137, 0, 255, 255}), 8);
+    const lobe_image *normals = image_of_use(fixture, &material->normal_map);
+    assert_int_equal(normals->format, LOBE_FORMAT_RGBA16_UNORM);
+    assert_memory_equal(normals->texels, ((const uint16_t[]){32768, 16384, 65535, 65535}), 8);
+    assert_int_equal(
+        ((const uint8_t *)image_of_use(fixture, &material->metallic_roughness_map)->texels)[1], 51);
+}
+
+static void texels_of_openexr_outside_of_the_range_are_counted(void **state) {
+    folder_fixture *fixture = *state;
+    write_exr(fixture, "wall_diff.exr", (const float[]){2, -1, NAN, 1, 0.25f, 0, 1, 1});
+    const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
+    assert_int_equal(fixture->recorder.warnings, 1);
+    assert_non_null(strstr(fixture->recorder.last_warning, "1 of 2 texels are outside [0, 1]"));
+    assert_memory_equal(image_of_use(fixture, &material->base_colour_map)->texels,
+                        ((const uint8_t[]){255, 0, 0, 255}), 4);
+}
+
 static void images_of_other_formats_are_named(void **state) {
     folder_fixture *fixture = *state;
     write_map(fixture, "albedo.png", 2, 2, 1, 2, 3);
-    write_folder_text(fixture, "normal.exr", "");
+    write_folder_text(fixture, "normal.tga", "");
     must_open_folder(fixture, LOBE_CARRIER_PLANE);
     assert_int_equal(fixture->recorder.warnings, 1);
-    assert_non_null(strstr(fixture->recorder.last_warning, "normal.exr"));
+    assert_non_null(strstr(fixture->recorder.last_warning, "normal.tga"));
 }
 
 static void bad_folders_are_named(void **state) {
@@ -244,10 +306,11 @@ static void bad_folders_are_named(void **state) {
     char path[512];
     must_fail_folder(fixture, "/nonexistent/folder", LOBE_ERROR_NOT_FOUND, "/nonexistent/folder",
                      "no such folder");
-    must_fail_folder(fixture, fixture->path, LOBE_ERROR_NOT_FOUND, fixture->path, "no PNG or JPEG");
+    must_fail_folder(fixture, fixture->path, LOBE_ERROR_NOT_FOUND, fixture->path, "no PNG, JPEG");
     write_map(fixture, "holiday.png", 1, 1, 0, 0, 0);
     write_map(fixture, "height.png", 1, 1, 0, 0, 0);
-    must_fail_folder(fixture, fixture->path, LOBE_ERROR_NOT_FOUND, fixture->path, "no PNG or JPEG");
+    must_fail_folder(fixture, fixture->path, LOBE_ERROR_NOT_FOUND, fixture->path,
+                     "heights alone are no material");
     folder_file_path(fixture, "holiday.png", path);
     must_fail_folder(fixture, path, LOBE_ERROR_READ, "holiday.png", "irectory");
 }
@@ -323,6 +386,8 @@ int main(void) {
         FOLDER_TEST(separate_maps_are_packed),
         FOLDER_TEST(packed_map_serves_occlusion_too),
         FOLDER_TEST(metallic_roughness_has_no_occlusion),
+        FOLDER_TEST(workflow_is_no_map),
+        FOLDER_TEST(metalness_after_a_resolution_is_a_map),
         FOLDER_TEST(directx_normals_are_turned_up),
         FOLDER_TEST(gloss_becomes_roughness),
         FOLDER_TEST(smoothness_is_in_alpha),
@@ -334,6 +399,8 @@ int main(void) {
         FOLDER_TEST(missing_maps_become_factors),
         FOLDER_TEST(first_in_alphabetical_order_is_taken),
         FOLDER_TEST(a_folder_is_a_scene),
+        FOLDER_TEST(maps_may_be_openexr),
+        FOLDER_TEST(texels_of_openexr_outside_of_the_range_are_counted),
         FOLDER_TEST(images_of_other_formats_are_named),
         FOLDER_TEST(bad_folders_are_named),
         FOLDER_TEST(bad_images_are_named),
