@@ -23,22 +23,23 @@ typedef struct jpeg_job {
     char *message;
 } jpeg_job;
 
-static void fail(jpeg_job *job, const char *text) {
-    snprintf(job->message, IMAGE_CODEC_MESSAGE_SIZE, "broken JPEG: %s", text);
+/// `kind`: what is said of the file before the cause.
+static void fail(jpeg_job *job, const char *kind, const char *text) {
+    snprintf(job->message, IMAGE_CODEC_MESSAGE_SIZE, "%s: %s", kind, text);
     longjmp(job->failed, 1);
 }
 
 static void on_error(j_common_ptr jpeg) {
     char text[JMSG_LENGTH_MAX];
     jpeg->err->format_message(jpeg, text);
-    fail(jpeg->client_data, text);
+    fail(jpeg->client_data, "broken JPEG", text);
 }
 
 // If an image ends early, libjpeg pads it with grey and warns; other warnings are harmless.
 static void on_message(j_common_ptr jpeg, int level) {
     int code = jpeg->err->msg_code;
     if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))
-        fail(jpeg->client_data, "ends early");
+        fail(jpeg->client_data, "broken JPEG", "ends early");
 }
 
 static void on_output(j_common_ptr jpeg) {
@@ -48,7 +49,7 @@ static void on_output(j_common_ptr jpeg) {
 static void on_progress(j_common_ptr jpeg) {
     jpeg_job *job = jpeg->client_data;
     if (job->jpeg.input_scan_number > JPEG_MAXIMUM_SCANS)
-        fail(job, "too many scans");
+        fail(job, "broken JPEG", "too many scans");
 }
 
 static void open_job(jpeg_job *job) {
@@ -67,7 +68,7 @@ static void read_header(jpeg_job *job) {
     jpeg_mem_src(&job->jpeg, job->bytes, job->size);
     jpeg_read_header(&job->jpeg, TRUE);
     if (job->jpeg.num_components != 1 && job->jpeg.num_components != 3)
-        fail(job, "its colours are neither grey nor RGB");
+        fail(job, "unsupported JPEG", "its colours are neither grey nor RGB");
     job->extent.width = job->jpeg.image_width;
     job->extent.height = job->jpeg.image_height;
 }

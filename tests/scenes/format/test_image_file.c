@@ -241,7 +241,7 @@ static void other_formats_are_named_unsupported(void **state) {
     uint8_t ink[16] = {0};
     encoded file = encode_jpeg(ink, 2, 2, 4, false);
     assert_int_equal(decode(file.bytes, file.size, SCENE_IMAGE_DATA, &image), LOBE_ERROR_MALFORMED);
-    assert_non_null(strstr(error, "neither grey nor RGB"));
+    assert_non_null(strstr(error, "unsupported JPEG: its colours are neither grey nor RGB"));
     free(file.bytes);
 }
 
