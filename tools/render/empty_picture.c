@@ -14,6 +14,14 @@ bool empty_picture_recognise(const lobe_image *radiance) {
     return true;
 }
 
+bool empty_picture_is_black(const lobe_image *radiance) {
+    const float *texels = radiance->texels;
+    for (size_t i = 0; i < (size_t)radiance->width * radiance->height; i++)
+        if (texels[4 * i] != 0 || texels[4 * i + 1] != 0 || texels[4 * i + 2] != 0)
+            return false;
+    return !empty_picture_recognise(radiance);
+}
+
 /// The camera's axes, and the tangents of half its angles; of an orthographic one, half its
 /// extents.
 typedef struct view_frame {

@@ -10,6 +10,9 @@
 /// Whether no pixel of a picture is covered: alpha is 0 everywhere.
 bool empty_picture_recognise(const lobe_image *radiance);
 
+/// Whether a picture is black: something is covered, but all radiance is 0.
+bool empty_picture_is_black(const lobe_image *radiance);
+
 /// Why the scene's own camera sees nothing, as a line for the user: "the camera looks away from the
 /// scene, ..." `aspect`: width over height.
 void empty_picture_explain(const lobe_scene *scene, double aspect, char *text, size_t size);

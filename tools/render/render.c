@@ -301,10 +301,28 @@ static lobe_result render_frame(const render_request *request, render_state *sta
     return result == LOBE_OK ? frame_times_add(&state->times, &state->frame, &state->host) : result;
 }
 
+/// What the knob `view` shows instead of light may be 0.
+static bool shows_light(const render_request *request) {
+    double view;
+    return lobe_settings_get(request->filter, &request->settings, "view", &view, NULL) != LOBE_OK ||
+           view == 0;
+}
+
+static void warn_of_a_black_picture(const render_request *request, const render_state *state) {
+    const lobe_scene *scene = state->scene;
+    const bool dark = scene->light_count == 0 && !scene->environment;
+    if (shows_light(request) && empty_picture_is_black(&state->frame.radiance))
+        lobe_host_log(&state->host, LOBE_LOG_WARNING, "%s: the picture is black: %s", scene->name,
+                      dark ? "nothing lights it: see --light and --environment"
+                           : "no light reaches what the camera sees");
+}
+
 static void warn_of_an_empty_picture(const render_request *request, const render_state *state) {
     char why[256];
-    if (!empty_picture_recognise(&state->frame.radiance))
+    if (!empty_picture_recognise(&state->frame.radiance)) {
+        warn_of_a_black_picture(request, state);
         return;
+    }
     empty_picture_explain(state->scene, (double)request->size[0] / request->size[1], why,
                           sizeof why);
     lobe_host_log(&state->host, LOBE_LOG_WARNING, "%s: the picture is empty: %s",

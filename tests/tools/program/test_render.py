@@ -314,6 +314,13 @@ def test_an_empty_picture_is_explained():
     result = succeeds("render", folder / "a.gltf", *DIRECT, *SMALL_SKY, "--eye", "0,0,5",
                       "--target", "0,0,9", "-o", folder / "a.png")
     check("the picture is empty: the camera looks away" in result.stderr, report(result))
+    bumps = ["render", "bumps", *DIRECT, "-o", folder / "black.png"]
+    result = succeeds(*bumps, "--no-lights")
+    check("bumps: the picture is black: nothing lights it" in result.stderr, report(result))
+    result = succeeds(*bumps, "--light", "directional:0,1,0:1,1,1")
+    check("bumps: the picture is black: no light reaches" in result.stderr, report(result))
+    result = succeeds(*bumps, "--no-lights", "--set", "view=level")
+    check("black" not in result.stderr, report(result))
 
 
 def test_material_folder():
