@@ -65,6 +65,11 @@ static void check_given(const filter_context *context, uint32_t index,
                         "%s: image '%s' has signed normals, but the host gave the format %s, which "
                         "has no sign",
                         scene->name, image->name, lobe_format_name(given->format));
+    else if (passes_format_is_srgb(given->format) && passes_scene_has_normals_in(scene, index))
+        lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
+                        "%s: image '%s' has normals, but the host gave the format %s, which is for "
+                        "colours",
+                        scene->name, image->name, lobe_format_name(given->format));
     else if (lacks_channel(scene, index, given->format))
         lobe_graph_fail(context->graph, LOBE_ERROR_INVALID_ARGUMENT,
                         "%s: image '%s' has normals of %u channels, but the host gave the format "

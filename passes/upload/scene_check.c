@@ -67,6 +67,19 @@ bool passes_format_has_sign(lobe_format format) {
     }
 }
 
+bool passes_format_is_srgb(lobe_format format) {
+    switch (format) {
+    case LOBE_FORMAT_RGBA8_SRGB:
+    case LOBE_FORMAT_BGRA8_SRGB:
+    case LOBE_FORMAT_BC1_SRGB:
+    case LOBE_FORMAT_BC3_SRGB:
+    case LOBE_FORMAT_BC7_SRGB:
+        return true;
+    default:
+        return false;
+    }
+}
+
 uint32_t passes_normal_channels(lobe_normal_encoding encoding) {
     return encoding == LOBE_NORMALS_UNSIGNED || encoding == LOBE_NORMALS_SIGNED ? 3 : 2;
 }
@@ -83,6 +96,10 @@ lobe_result passes_scene_check_normals(const lobe_scene *scene, size_t index,
     const lobe_scene_image *image = &scene->images[index];
     const uint32_t needed = passes_normal_channels(image->normals),
                    channels = lobe_format_channels(image->image.format);
+    if (!image->on_device && passes_format_is_srgb(image->image.format))
+        return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
+                              "%s: image '%s': normals in the format %s, which is for colours",
+                              scene->name, image->name, lobe_format_name(image->image.format));
     if (image->on_device || channels >= needed || channels == 0) // the image itself is refused
         return LOBE_OK;
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,

@@ -8,6 +8,8 @@
 
 /// Whether its channels can be negative: signed normals need that.
 bool passes_format_has_sign(lobe_format format);
+/// Whether its channels but alpha are encoded with the sRGB curve: those of normals are not.
+bool passes_format_is_srgb(lobe_format format);
 /// How many channels normals of an encoding take.
 uint32_t passes_normal_channels(lobe_normal_encoding encoding);
 /// Whether an image is the normal map of a material.
@@ -20,7 +22,7 @@ lobe_result passes_scene_check_instance_array(const lobe_scene *scene, const lob
 /// There are texels, of a format that can be sampled, and those of the part (NULL: all) are finite.
 lobe_result passes_scene_check_image(const lobe_scene *scene, size_t index,
                                      const lobe_rectangle *part, const lobe_host *host);
-/// The format of an image that is a normal map has the channels of its encoding.
+/// The format of an image that is a normal map is linear, and has the channels of its encoding.
 lobe_result passes_scene_check_normals(const lobe_scene *scene, size_t index,
                                        const lobe_host *host);
 /// There are triangles, of vertices that exist, are finite and have normals.

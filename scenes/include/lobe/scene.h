@@ -41,8 +41,8 @@ typedef enum lobe_normal_encoding {
 } lobe_normal_encoding;
 
 /// An image of the scene. Rows run downwards; texture coordinate (0, 0) is its top left corner.
-/// Channels that its format lacks are 0, alpha is 1: R8_UNORM is red, as a colour. A normal map
-/// must have the channels of its encoding.
+/// Channels that its format lacks are 0, alpha is 1: R8_UNORM is red, as a colour. A normal map is
+/// linear, and has the channels of its encoding.
 typedef struct lobe_scene_image {
     char *name; ///< where it comes from, for messages
     lobe_image image;

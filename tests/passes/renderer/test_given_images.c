@@ -695,6 +695,9 @@ static void mistakes_are_named(void **state) {
     scene->images[0].normals = LOBE_NORMALS_UNSIGNED;
     assert_refused(f, give_described, &image,
                    "normals of 3 channels, but the host gave the format RG16_UNORM, which has 2");
+    image.format = LOBE_FORMAT_BGRA8_SRGB;
+    assert_refused(f, give_described, &image,
+                   "normals, but the host gave the format BGRA8_SRGB, which is for colours");
     hash_of(f, "moments", &g);
     unset(f, &scene);
     giver_free(&g);

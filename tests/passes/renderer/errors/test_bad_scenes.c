@@ -100,6 +100,10 @@ static void give_normals_one_channel(lobe_scene *scene) {
     scene->images[0].image.format = LOBE_FORMAT_R32_FLOAT;
 }
 
+static void encode_normals_as_colours(lobe_scene *scene) {
+    scene->images[0].image.format = LOBE_FORMAT_RGBA8_SRGB;
+}
+
 static void make_wrapping_unknown(lobe_scene *scene) {
     scene->materials[0].normal_map.wrap_v = 3;
 }
@@ -197,6 +201,7 @@ static void broken_scenes_are_refused(void **state) {
         {"texels of NONE", make_image_without_format},
         {"normals of 3 channels in the format RG32_FLOAT, which has 2", give_normals_two_channels},
         {"normals of 2 channels in the format R32_FLOAT, which has 1", give_normals_one_channel},
+        {"normals in the format RGBA8_SRGB, which is for colours", encode_normals_as_colours},
         {"a map with the wrapping 0, 3; there are 0 to 2", make_wrapping_unknown},
         {"'material': base_colour[1] is nan", make_base_colour_nan},
         {"emissive[2] is -1; expected a finite number of at least 0", make_emission_negative},
