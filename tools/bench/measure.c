@@ -164,25 +164,42 @@ static lobe_result time_changed_frame(const bench_run *run, size_t index, bench_
     return status;
 }
 
-/// One frame of each filter with maps rebuilt, one with maps retained, and one with changed texels.
-/// The first round (`keep` false) only warms up; supersampling filters need none.
-static lobe_result time_round(const bench_run *run, uint32_t round, bool keep,
+/// One frame with maps rebuilt, and one with maps retained. `result`: NULL to warm up.
+static lobe_result time_still_frames(const bench_run *run, size_t index, bench_result *result) {
+    const bench_filter *filter = &run->job->filters[index];
+    lobe_result status =
+        time_frame(run, index, filter, true, result ? result->profiles[BENCH_REBUILT] : NULL);
+    return status ? status
+                  : time_frame(run, index, filter, false,
+                               result ? result->profiles[BENCH_RETAINED] : NULL);
+}
+
+typedef lobe_result (*frame_timer)(const bench_run *run, size_t index, bench_result *result);
+
+/// Frames of each filter. The first round (`keep` false) only warms up; supersampling filters need
+/// none.
+static lobe_result time_round(const bench_run *run, frame_timer time, uint32_t round, bool keep,
                               bench_result *results) {
     lobe_result status = LOBE_OK;
     for (size_t i = 0; status == LOBE_OK && i < run->job->filter_count; i++) {
         const bench_filter *filter = &run->job->filters[i];
-        bool left_out = keep ? round >= bench_frames(run->job, filter)
-                             : lobe_filter_supersamples(filter->filter);
-        if (left_out)
-            continue;
-        status = time_frame(run, i, filter, true, keep ? results[i].profiles[BENCH_REBUILT] : NULL);
-        if (status == LOBE_OK)
-            status = time_frame(run, i, filter, false,
-                                keep ? results[i].profiles[BENCH_RETAINED] : NULL);
-        if (status == LOBE_OK)
-            status = time_changed_frame(run, i, keep ? &results[i] : NULL);
+        const bool left_out = keep ? round >= bench_frames(run->job, filter)
+                                   : lobe_filter_supersamples(filter->filter);
+        if (!left_out)
+            status = time(run, i, keep ? &results[i] : NULL);
     }
     return status;
+}
+
+/// `first`: the part of the progress that is done before, half of all.
+static lobe_result time_rounds(const bench_run *run, frame_timer time, double first,
+                               bench_result *results) {
+    lobe_result result = time_round(run, time, 0, false, results);
+    for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; round++) {
+        result = time_round(run, time, round, true, results);
+        progress_part(run->job->progress, first + 0.5 * (round + 1.0) / run->job->frames);
+    }
+    return result;
 }
 
 static lobe_result open_profiles(const bench_run *run, bench_result *result) {
@@ -211,11 +228,10 @@ static lobe_result measure_times(const bench_run *run, bench_result *results) {
     for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; i++)
         result = open_profiles(run, &results[i]);
     if (result == LOBE_OK)
-        result = time_round(run, 0, false, results);
-    for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; round++) {
-        result = time_round(run, round, true, results);
-        progress_part(run->job->progress, (round + 1.0) / run->job->frames);
-    }
+        result = time_rounds(run, time_still_frames, 0, results);
+    // Afterwards, as `moments` goes on to fit its bins to texels that have changed once.
+    if (result == LOBE_OK)
+        result = time_rounds(run, time_changed_frame, 0.5, results);
     for (size_t i = 0; result == LOBE_OK && i < run->job->filter_count; i++)
         result = summarise(&results[i]);
     return result;
