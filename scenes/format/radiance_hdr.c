@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <lobe/colour.h>
+
 #include "scenes/format/image_file.h"
 #include "scenes/format/text_cursor.h"
 
@@ -15,6 +17,8 @@ typedef struct hdr_reader {
     const uint8_t *at, *end;
     bool xyz;
     double scale[3]; // undoes exposure and colour correction
+    float primaries[4][2];
+    bool has_primaries;
     // Scan lines, and texels per line. They run downwards and to the right unless reversed.
     uint32_t line_count, length;
     bool lines_are_columns, lines_reversed, texels_reversed;
@@ -82,6 +86,15 @@ static lobe_result read_factors(hdr_reader *reader, text_cursor *line, bool one_
     return LOBE_OK;
 }
 
+// CIE x and y of red, green, blue and white. Photoshop writes eight zeroes, which say nothing.
+static void read_primaries(hdr_reader *reader, text_cursor *line) {
+    double number;
+    for (int i = 0; i < 8; i++)
+        reader->primaries[i / 2][i % 2] =
+            scenes_text_cursor_number(line, &number) ? (float)number : 0;
+    reader->has_primaries = true;
+}
+
 static lobe_result read_variables(hdr_reader *reader) {
     text_cursor line;
     while (take_line(reader, &line)) {
@@ -94,6 +107,8 @@ static lobe_result read_variables(hdr_reader *reader) {
             result = read_factors(reader, &line, true);
         else if (take_key(&line, "COLORCORR="))
             result = read_factors(reader, &line, false);
+        else if (take_key(&line, "PRIMARIES="))
+            read_primaries(reader, &line);
         if (result != LOBE_OK)
             return result;
     }
@@ -281,6 +296,8 @@ lobe_result scenes_radiance_hdr_decode(const void *bytes, size_t size, const cha
         result = read_resolution(&reader);
     if (result == LOBE_OK)
         result = decode(&reader);
+    if (result == LOBE_OK && reader.has_primaries && !reader.xyz)
+        lobe_image_to_rec709(image, reader.primaries); // left alone if they span no colours
     if (result != LOBE_OK)
         lobe_image_free(image);
     return result;

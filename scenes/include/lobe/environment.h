@@ -95,7 +95,7 @@ typedef struct lobe_environment_open_parameters {
 ///   attribute "envmap" of an OpenEXR file is trusted; otherwise the shape decides: 1:6 and 6:1 are
 ///   columns and rows of six faces, 3:4 and 4:3 crosses, and anything from 1:1 to 4:1 is latitude
 ///   and longitude (with a notice unless it is 2:1). Its colours are converted from the primaries
-///   that an OpenEXR file states ("chromaticities").
+///   that the file states ("chromaticities", "PRIMARIES=").
 /// - "sky": a clear sky with a sun (Preetham, Shirley, Smits 1999), 40 degrees high, to the left
 ///   behind a viewer who looks along -Z, over grey ground. A white level surface under it has a
 ///   luminance of 1. A file of that name is "./sky".

@@ -242,6 +242,35 @@ static void xyz_becomes_rgb(void **state) {
     lobe_image_free(&image);
 }
 
+static void colours_of_other_primaries_are_converted(void **state) {
+    (void)state;
+    // Its green is the blue of Rec. 709, and its blue the green.
+    lobe_image image = must_decode(picture("FORMAT=32-bit_rle_rgbe\n"
+                                           "PRIMARIES= .64 .33 .15 .06 .30 .60 .3127 .3290\n",
+                                           "-Y 1 +X 1", 1, 1, FLAT));
+    uint8_t bytes[4];
+    texel_bytes(0, 0, bytes);
+    const float expected[3] = {(float)radiance_of(bytes, 0), (float)radiance_of(bytes, 2),
+                               (float)radiance_of(bytes, 1)};
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(texel(&image, 0, 0)[i], expected[i], 1e-5f * expected[0]);
+    lobe_image_free(&image);
+}
+
+static void primaries_that_say_nothing_are_ignored(void **state) {
+    (void)state;
+    static const char *const headers[] = {"PRIMARIES=0 0 0 0 0 0 0 0\n", "PRIMARIES=.64 .33\n",
+                                          "PRIMARIES=\n"};
+    for (size_t k = 0; k < sizeof headers / sizeof *headers; k++) {
+        lobe_image image = must_decode(picture(headers[k], "-Y 1 +X 1", 1, 1, FLAT));
+        uint8_t bytes[4];
+        texel_bytes(0, 0, bytes);
+        for (int i = 0; i < 3; i++)
+            assert_true(texel(&image, 0, 0)[i] == (float)radiance_of(bytes, i));
+        lobe_image_free(&image);
+    }
+}
+
 static byte_buffer text(const char *content) {
     byte_buffer out = {0};
     append_text(&out, content);
@@ -337,6 +366,8 @@ int main(void) {
         cmocka_unit_test(every_packing_and_size_is_read),
         cmocka_unit_test(every_direction_is_read),
         cmocka_unit_test(exposures_are_undone),
+        cmocka_unit_test(colours_of_other_primaries_are_converted),
+        cmocka_unit_test(primaries_that_say_nothing_are_ignored),
         cmocka_unit_test(an_exponent_of_zero_is_black),
         cmocka_unit_test(xyz_becomes_rgb),
         cmocka_unit_test(what_is_wrong_is_said),
