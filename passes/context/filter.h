@@ -85,6 +85,9 @@ struct lobe_filter {
     bool gathers_moments;
     /// Shades reliefs by how much microfacets reflect of light from everywhere, in any light.
     bool reads_albedo;
+    /// Microfacets are as rough as the material says: normals that vary widen no base lobe, except
+    /// those of level 0 inside a pixel.
+    bool keeps_widths;
     bool moves_masks; ///< the shader reads a mask elsewhere than at the surface that is drawn
     /// Shading runs loops for each light, which devices may cut short if there are many.
     bool loops_for_lights;

@@ -72,7 +72,8 @@ static uint32_t broad_reflection_of(const filter_context *context, const environ
         source->model != LOBE_MATERIAL_MICROFACET || !metal)
         return 0;
     const bool widened =
-        (material->map_bits & 1u << MAP_NORMAL) || source->normal_concentration > 0;
+        ((material->map_bits & 1u << MAP_NORMAL) && !context->filter->keeps_widths) ||
+        source->normal_concentration > 0;
     const float least = material->map_bits & 1u << MAP_WIDTH ? 0 : source->roughness;
     const float greatest = widened ? 1 : source->roughness;
     uint32_t ways = 0;

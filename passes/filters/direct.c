@@ -20,6 +20,7 @@ const lobe_filter passes_filter_direct = {
     .summary = "one unfiltered sample of the maps: fast, and aliased",
     .paper = "",
     .shading = "direct",
+    .keeps_widths = true,
     .stretches_slopes = true,
     .knobs = knobs,
     .draws_waves = true,

@@ -13,6 +13,7 @@ const lobe_filter passes_filter_mipmap = {
     .paper = "Xu et al. 2017, section 5.2 (naive MIP-mapping)",
     .shading = "mipmap",
     .shading_cost = 1.7f,
+    .keeps_widths = true,
     .stretches_slopes = true,
     .knobs = knobs,
     .build = passes_parameter_averaging_build,

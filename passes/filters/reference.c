@@ -8,6 +8,7 @@ const lobe_filter passes_filter_reference = {
     .summary = "the mean of many unfiltered samples: the truth, slowly",
     .paper = "",
     .shading = "direct",
+    .keeps_widths = true,
     .stretches_slopes = true,
     .knobs = knobs,
     .supersamples = true,

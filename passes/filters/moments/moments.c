@@ -298,6 +298,7 @@ const lobe_filter passes_filter_moments = {
     .paper = "",
     .shading = "moments",
     .shading_cost = 5.0f,
+    .keeps_widths = true,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

@@ -577,6 +577,35 @@ static void methods_make_only_their_own_maps(void **state) {
     lobe_scene_destroy(&scene);
 }
 
+/// Bumps make microfacets rougher only where a filter averages normals into widths.
+static void smooth_bumpy_metal_is_not_lit_as_rough(void **state) {
+    static const struct {
+        const char *filter;
+        float roughness;
+        bool rough;
+    } cases[] = {
+        {"direct", 0.3f, false}, {"mipmap", 0.3f, false}, {"moments", 0.3f, false},
+        {"toksvig", 0.3f, true}, {"direct", 0.8f, true},  {"moments", 0.8f, true},
+    };
+    fixture *f = *state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const lobe_material material = metal(cases[i].roughness);
+        lobe_scene *scene = rough_square_in(coloured, &material, 0.5);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, scene), LOBE_OK);
+        picture_request request = {
+            .filter = cases[i].filter, .settings = {"env_size=16"}, .width = 1, .height = 1};
+        lobe_frame frame = draw(f, &request);
+        const size_t ran =
+            count_passes(lobe_renderer_graph(f->renderer), "hemisphere_moments", LOBE_PASS_RUN);
+        if ((ran > 0) != cases[i].rough)
+            fail_msg("%s, roughness %g: moments of hemispheres were made %zu times",
+                     cases[i].filter, (double)cases[i].roughness, ran);
+        lobe_frame_free(&frame);
+        assert_int_equal(lobe_renderer_set_scene(f->renderer, NULL), LOBE_OK);
+        lobe_scene_destroy(&scene);
+    }
+}
+
 /// One part of the work per frame: lit by the plain MIP chain at first, by the previous environment
 /// while the next is prepared, and finally as if all parts had been done at once.
 static void maps_are_made_part_by_part(void **state) {
@@ -659,6 +688,7 @@ int main(void) {
         cmocka_unit_test(occlusion_takes_its_part),
         cmocka_unit_test(the_background_shows_the_environment),
         cmocka_unit_test(methods_make_only_their_own_maps),
+        cmocka_unit_test(smooth_bumpy_metal_is_not_lit_as_rough),
         cmocka_unit_test(maps_are_made_part_by_part),
         cmocka_unit_test(bad_environments_are_refused),
     };
