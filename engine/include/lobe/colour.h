@@ -24,10 +24,10 @@ LOBE_API float lobe_srgb_decode(float encoded);
 /// Luminance of linear RGB, Rec. 709 (rounded to four digits): 0.2126 R + 0.7152 G + 0.0722 B.
 LOBE_API float lobe_luminance(const float rgb[3]);
 
-/// Converts linear RGB in an RGBA32_FLOAT image from other primaries. `chromaticities` are CIE x and
-/// y of red, green, blue and white, which is adapted to D65 (Bradford). Colours that Rec. 709 cannot
-/// show get negative channels. False, and nothing is changed, for another format and for primaries
-/// that span no colours.
+/// Converts linear RGB in an RGBA32_FLOAT image from other primaries. `chromaticities` are CIE x
+/// and y of red, green, blue and white, which is adapted to D65 (Bradford). Colours that Rec. 709
+/// cannot show get negative channels. False, and nothing is changed, for another format and for
+/// primaries that span no colours.
 LOBE_API bool lobe_image_to_rec709(lobe_image *image, const float chromaticities[4][2]);
 
 typedef enum lobe_tone_map {
