@@ -23,6 +23,7 @@ const lobe_filter passes_filter_lean = {
     .paper = "Olano, Baker 2010, LEAN Mapping",
     .shading = "lean",
     .shading_cost = 2.6f,
+    .keeps_widths = true,
     .stretches_slopes = true,
     .slopes = FILTER_SLOPES_MASKED_AS_MATERIAL,
     .knobs = knobs,

@@ -367,6 +367,7 @@ const lobe_filter passes_filter_lobes = {
     .paper = "Xu et al. 2017, Real-Time Linear BRDF MIP-Mapping",
     .shading = "lobes",
     .shading_cost = 2.7f,
+    .keeps_widths = true,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

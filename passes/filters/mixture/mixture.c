@@ -140,6 +140,7 @@ const lobe_filter passes_filter_mixture = {
     .paper = "after Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "moments",
     .shading_cost = 26.0f,
+    .keeps_widths = true,
     .knobs = knobs,
     .fetches_for_lights = true,
     .prepare = prepare,

@@ -91,6 +91,7 @@ const lobe_filter passes_filter_tan = {
     .paper = "Tan et al. 2005, Multiresolution Reflectance Filtering",
     .shading = "tan",
     .shading_cost = 2.6f,
+    .keeps_widths = true,
     .knobs = knobs,
     .prepare = prepare,
     .adapts_to_texels = true,
