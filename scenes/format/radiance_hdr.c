@@ -92,7 +92,10 @@ static void read_primaries(hdr_reader *reader, text_cursor *line) {
     for (int i = 0; i < 8; i++)
         reader->primaries[i / 2][i % 2] =
             scenes_text_cursor_number(line, &number) ? (float)number : 0;
-    reader->has_primaries = true;
+    // The format's own are taken as those of Rec. 709, as colours without a header line are.
+    static const float own[8] = {0.640f, 0.330f, 0.290f, 0.600f, 0.150f, 0.060f, 0.333f, 0.333f};
+    for (int i = 0; i < 8; i++)
+        reader->has_primaries |= fabsf(reader->primaries[i / 2][i % 2] - own[i]) > 1e-3f;
 }
 
 static lobe_result read_variables(hdr_reader *reader) {

@@ -338,7 +338,11 @@ bool scenes_material_file_is_gltf(const material_file_content *content) {
 bool scenes_material_file_is_readable(const char *name) {
     const char *end = extension(name);
     return strcasecmp(end, ".png") == 0 || strcasecmp(end, ".jpg") == 0 ||
-           strcasecmp(end, ".jpeg") == 0 || strcasecmp(end, ".exr") == 0;
+           strcasecmp(end, ".jpeg") == 0 || scenes_material_file_is_exr(name);
+}
+
+bool scenes_material_file_is_exr(const char *name) {
+    return strcasecmp(extension(name), ".exr") == 0;
 }
 
 bool scenes_material_file_is_other_image(const char *name) {

@@ -49,6 +49,7 @@ bool scenes_material_file_is_gltf(const material_file_content *content);
 
 /// Whether the extension is that of PNG, JPEG or OpenEXR.
 bool scenes_material_file_is_readable(const char *name);
+bool scenes_material_file_is_exr(const char *name);
 
 /// Whether the extension is of an image format that lobe does not read.
 bool scenes_material_file_is_other_image(const char *name);

@@ -86,13 +86,16 @@ static bool is_form(const char *word) {
     return end > word && (strcmp(end, "k") == 0 || strcmp(end, "bit") == 0);
 }
 
-/// The word before the resolution at which a name ends that says `workflow` last, as in Poliigon's
+/// The map of a name that says `workflow` last, after a map and its form, as in Poliigon's
 /// "Bricks_COL_2K_METALNESS"; NULL: it does not end so.
-static const char *word_before_workflow(const material_name *name, const char *workflow) {
-    const size_t count = name->count;
-    const bool ends = count > 2 && strcmp(name->words[count - 1], workflow) == 0 &&
-                      is_form(name->words[count - 2]);
-    return ends ? name->words[count - 3] : NULL;
+static const char *map_before_workflow(const material_name *name, const char *workflow) {
+    if (name->count < 3 || strcmp(name->words[name->count - 1], workflow) != 0)
+        return NULL;
+    size_t end = name->count - 1;
+    while (end > 0 && is_form(name->words[end - 1]))
+        end--;
+    const char *word = end > 0 && end < name->count - 1 ? name->words[end - 1] : NULL;
+    return word && scenes_material_map_word(word, strlen(word)) ? word : NULL;
 }
 
 /// Whether names of different maps end with it: else it is a map ("Metal_1K_Metalness").
@@ -101,7 +104,7 @@ static bool is_workflow(const material_files *found, const char *workflow) {
     const char *map = NULL;
     for (size_t i = 0; i < found->count; i++) {
         scenes_material_name_split(found->files[i].name, map ? &name : &first);
-        const char *word = word_before_workflow(map ? &name : &first, workflow);
+        const char *word = map_before_workflow(map ? &name : &first, workflow);
         if (map && word && strcmp(word, map) != 0)
             return true;
         map = map ? map : word;
@@ -120,15 +123,16 @@ static void find_workflow(material_files *found) {
 static void split_name(const material_files *found, const material_file *file,
                        material_name *name) {
     scenes_material_name_split(file->name, name);
-    if (found->workflow && word_before_workflow(name, found->workflow))
+    if (found->workflow && map_before_workflow(name, found->workflow))
         name->count--;
 }
 
-/// How many words all names begin with.
+/// How many words all names begin with; one fewer if there are no others ("albedo.png",
+/// "albedo.exr").
 static size_t count_common_words(const material_files *found) {
     material_name first, other;
     split_name(found, &found->files[0], &first);
-    size_t common = found->count > 1 ? first.count : 0;
+    size_t common = found->count > 1 ? first.count : 0, most = first.count;
     for (size_t i = 1; i < found->count; i++) {
         split_name(found, &found->files[i], &other);
         size_t same = 0;
@@ -136,8 +140,9 @@ static size_t count_common_words(const material_files *found) {
                strcmp(first.words[same], other.words[same]) == 0)
             same++;
         common = same;
+        most = other.count > most ? other.count : most;
     }
-    return common;
+    return common > 0 && common == most ? common - 1 : common;
 }
 
 /// Whether each map is still recognised without its first `skipped` words, unless no others are
@@ -252,11 +257,12 @@ static lobe_result require_one_material(const folder_search *search) {
 // ---------------------------------------------------------------------------------------------
 // Choosing
 
-/// Lower is better.
+/// Lower is better. The numbers of OpenEXR files may lie outside [0, 1].
 static int rank(const material_file *file) {
+    const int exr = scenes_material_file_is_exr(file->name);
     if (scenes_material_file_is_gltf(&file->content))
-        return 0;
-    return scenes_material_file_is_packed(&file->content) ? 2 : 1;
+        return exr;
+    return (scenes_material_file_is_packed(&file->content) ? 4 : 2) + exr;
 }
 
 static void offer(material_source *source, const material_file *file, uint32_t channel) {

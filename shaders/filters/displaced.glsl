@@ -916,7 +916,8 @@ mirroring_bins bins_of_width(mirroring_bins all, rough_facets rough[FACET_BINS],
         everything += all.seen[k];
         bins.seen[k] = 0.0;
         seen_normals(normals_of(bins.groups[k]), drawn.viewer, bins.shares[k]);
-        if (bins.groups[k].size * bins.shares[k] <= 1e-4)
+        // Of a bin that find_bins() left out, the sky is not known.
+        if (all.seen[k] <= 0.0 || bins.groups[k].size * bins.shares[k] <= 1e-4)
             continue;
         bins.seen[k] = all.scale * facing_area(spread_of(bins.groups[k]), drawn.viewer) *
                        seen_at_depth(bins.depths[k], lambda_of_seen(drawn.seen));

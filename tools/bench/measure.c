@@ -178,7 +178,7 @@ typedef lobe_result (*frame_timer)(const bench_run *run, size_t index, bench_res
 
 /// Frames of each filter. The first round (`keep` false) only warms up; supersampling filters need
 /// none.
-static lobe_result time_round(const bench_run *run, frame_timer time, uint32_t round, bool keep,
+static lobe_result time_round(const bench_run *run, frame_timer timer, uint32_t round, bool keep,
                               bench_result *results) {
     lobe_result status = LOBE_OK;
     for (size_t i = 0; status == LOBE_OK && i < run->job->filter_count; i++) {
@@ -186,17 +186,17 @@ static lobe_result time_round(const bench_run *run, frame_timer time, uint32_t r
         const bool left_out = keep ? round >= bench_frames(run->job, filter)
                                    : lobe_filter_supersamples(filter->filter);
         if (!left_out)
-            status = time(run, i, keep ? &results[i] : NULL);
+            status = timer(run, i, keep ? &results[i] : NULL);
     }
     return status;
 }
 
-/// `first`: the part of the progress that is done before, half of all.
-static lobe_result time_rounds(const bench_run *run, frame_timer time, double first,
+/// Adds half of the whole to the progress, of which the part `first` is done before.
+static lobe_result time_rounds(const bench_run *run, frame_timer timer, double first,
                                bench_result *results) {
-    lobe_result result = time_round(run, time, 0, false, results);
+    lobe_result result = time_round(run, timer, 0, false, results);
     for (uint32_t round = 0; result == LOBE_OK && round < run->job->frames; round++) {
-        result = time_round(run, time, round, true, results);
+        result = time_round(run, timer, round, true, results);
         progress_part(run->job->progress, first + 0.5 * (round + 1.0) / run->job->frames);
     }
     return result;

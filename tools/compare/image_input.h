@@ -13,8 +13,9 @@ typedef struct image_input {
     bool high_dynamic_range; ///< OpenEXR; false: PNG, decoded from sRGB
 } image_input;
 
-/// Reads an OpenEXR (its main layer) or PNG file, recognised by its first bytes. Free the image
-/// with lobe_image_free. Errors: those of lobe_exr_read and lobe_png_read.
+/// Reads an OpenEXR (its main layer, converted to the primaries of Rec. 709) or PNG file,
+/// recognised by its first bytes. Free the image with lobe_image_free. Errors: those of
+/// lobe_exr_read and lobe_png_read.
 lobe_result image_input_read(const char *path, const lobe_host *host, image_input *input);
 
 #endif

@@ -25,8 +25,9 @@ LOBE_API float lobe_srgb_decode(float encoded);
 LOBE_API float lobe_luminance(const float rgb[3]);
 
 /// Converts linear RGB in an RGBA32_FLOAT image from other primaries. `chromaticities` are CIE x
-/// and y of red, green, blue and white, which is adapted to D65 (Bradford). Colours that Rec. 709
-/// cannot show get negative channels. False, and nothing is changed, for another format and for
+/// and y of red, green, blue and white, which is adapted to D65 (Bradford). Of colours that Rec.
+/// 709 cannot show, negative channels become 0, unless they had some before. Texels with infinite
+/// channels and NaN stay as they are. False, and nothing is changed, for another format and for
 /// primaries that span no colours.
 LOBE_API bool lobe_image_to_rec709(lobe_image *image, const float chromaticities[4][2]);
 

@@ -42,6 +42,7 @@ const lobe_filter passes_filter_displaced_reference = {
     .summary = "the mean of many paths of light over the relief of height maps: the truth, slowly",
     .paper = "",
     .shading = "displaced_reference",
+    .shading_cost = 20.0f,
     .knobs = knobs,
     .supersamples = true,
     .reads_heights = true,

@@ -177,20 +177,34 @@ static void primaries_become_those_of_rec_709(void **state) {
     static const float expected[3][3] = {{1.70505f, -0.13026f, -0.02400f},
                                          {-0.62179f, 1.14080f, -0.12897f},
                                          {-0.08326f, -0.01055f, 1.15297f}};
-    float texels[4][4] = {{1, 0, 0, 0.5f}, {0, 1, 0, 0.5f}, {0, 0, 1, 0.5f}, {3, 3, 3, 0.5f}};
+    float texels[4][4] = {{2, 1, 1, 0.5f}, {1, 2, 1, 0.5f}, {1, 1, 2, 0.5f}, {3, 3, 3, 0.5f}};
     lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 4, 1, texels};
     assert_true(lobe_image_to_rec709(&image, acescg));
     for (int i = 0; i < 9; i++)
-        assert_float_equal(texels[i / 3][i % 3], expected[i / 3][i % 3], 2e-4f);
+        assert_float_equal(texels[i / 3][i % 3], 1 + expected[i / 3][i % 3], 2e-4f);
     for (int i = 0; i < 3; i++)
         assert_float_equal(texels[3][i], 3, 1e-4f); // white stays white
     for (int i = 0; i < 4; i++)
         assert_true(texels[i][3] == 0.5f);
 }
 
+/// Of CIE XYZ itself, two primaries have no luminance.
+static void xyz_is_a_space_of_colours(void **state) {
+    (void)state;
+    static const float xyz[4][2] = {{1, 0}, {0, 1}, {0, 0}, {1 / 3.0f, 1 / 3.0f}};
+    float texels[4][4] = {{1, 1, 1, 1}, {0.5f, 0, 0, 1}, {INFINITY, 1, 2, 1}, {-0.5f, 0, 0, 1}};
+    lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 4, 1, texels};
+    assert_true(lobe_image_to_rec709(&image, xyz));
+    for (int i = 0; i < 3; i++)
+        assert_float_equal(texels[0][i], 1, 1e-4f);
+    // X alone is red, and has less than no green.
+    assert_true(texels[1][0] > 1 && texels[1][1] == 0 && texels[3][1] > 0);
+    assert_memory_equal(texels[2], ((const float[]){INFINITY, 1, 2, 1}), sizeof texels[2]);
+}
+
 static void primaries_that_span_nothing_are_refused(void **state) {
     (void)state;
-    static const float line[4][2] = {{0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}};
+    static const float line[4][2] = {{0.1f, 0.2f}, {0.2f, 0.3f}, {0.3f, 0.4f}, {0.3f, 0.3f}};
     static const float none[4][2] = {{0}};
     float texel[4] = {1, 2, 3, 4};
     lobe_image image = {LOBE_FORMAT_RGBA32_FLOAT, 1, 1, texel};
@@ -215,6 +229,7 @@ int main(void) {
         cmocka_unit_test(the_heat_map_grows_lighter_evenly),
         cmocka_unit_test(the_heat_map_clamps),
         cmocka_unit_test(primaries_become_those_of_rec_709),
+        cmocka_unit_test(xyz_is_a_space_of_colours),
         cmocka_unit_test(primaries_that_span_nothing_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

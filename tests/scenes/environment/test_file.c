@@ -104,8 +104,9 @@ static void exchange_primaries(const char *path) {
     uint8_t *bytes;
     size_t size, at = 0;
     assert_int_equal(lobe_file_read(path, NULL, NULL, &bytes, &size), LOBE_OK);
-    while (memcmp(bytes + at, type, sizeof type) != 0)
+    while (at + sizeof type < size && memcmp(bytes + at, type, sizeof type) != 0)
         at++;
+    assert_memory_equal(bytes + at, type, sizeof type);
     memcpy(bytes + at + sizeof type + 4 + 2 * sizeof(float), exchanged, sizeof exchanged);
     assert_int_equal(lobe_file_write(path, bytes, size, NULL), LOBE_OK);
     lobe_release(bytes);

@@ -260,7 +260,8 @@ static void colours_of_other_primaries_are_converted(void **state) {
 static void primaries_that_say_nothing_are_ignored(void **state) {
     (void)state;
     static const char *const headers[] = {"PRIMARIES=0 0 0 0 0 0 0 0\n", "PRIMARIES=.64 .33\n",
-                                          "PRIMARIES=\n"};
+                                          "PRIMARIES=\n",
+                                          "PRIMARIES=.64 .33 .29 .60 .15 .06 .333 .333\n"};
     for (size_t k = 0; k < sizeof headers / sizeof *headers; k++) {
         lobe_image image = must_decode(picture(headers[k], "-Y 1 +X 1", 1, 1, FLAT));
         uint8_t bytes[4];

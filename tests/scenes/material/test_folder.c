@@ -79,9 +79,9 @@ static void workflow_is_no_map(void **state) {
 
 static void metalness_after_a_resolution_is_a_map(void **state) {
     folder_fixture *fixture = *state;
-    write_map(fixture, "Metal01_1K_Color.png", 2, 2, 1, 2, 3);
-    write_map(fixture, "Metal01_1K_Metalness.png", 2, 2, 9, 9, 9);
-    write_map(fixture, "Metal01_2K_Metalness.png", 2, 2, 7, 7, 7);
+    write_map(fixture, "Metal01_1K-PNG_Color.png", 2, 2, 1, 2, 3);
+    write_map(fixture, "Metal01_1K-PNG_Metalness.png", 2, 2, 9, 9, 9);
+    write_map(fixture, "Metal01_2K-PNG_Metalness.png", 2, 2, 7, 7, 7);
     const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
     assert_texel(image_of_use(fixture, &material->base_colour_map), 1, 2, 3);
     assert_texel(image_of_use(fixture, &material->metallic_roughness_map), 255, 255, 9);
@@ -282,6 +282,16 @@ static void maps_may_be_openexr(void **state) {
         ((const uint8_t *)image_of_use(fixture, &material->metallic_roughness_map)->texels)[1], 51);
 }
 
+/// Whose numbers may lie outside [0, 1].
+static void png_is_preferred_to_openexr(void **state) {
+    folder_fixture *fixture = *state;
+    write_exr(fixture, "wall_diff.exr", (const float[]){2, -1, NAN, 1, 0.25f, 0, 1, 1});
+    write_map(fixture, "wall_diff.png", 2, 2, 1, 2, 3);
+    const lobe_material *material = must_open_folder(fixture, LOBE_CARRIER_PLANE);
+    assert_int_equal(fixture->recorder.warnings, 0);
+    assert_texel(image_of_use(fixture, &material->base_colour_map), 1, 2, 3);
+}
+
 static void texels_of_openexr_outside_of_the_range_are_counted(void **state) {
     folder_fixture *fixture = *state;
     write_exr(fixture, "wall_diff.exr", (const float[]){2, -1, NAN, 1, 0.25f, 0, 1, 1});
@@ -400,6 +410,7 @@ int main(void) {
         FOLDER_TEST(first_in_alphabetical_order_is_taken),
         FOLDER_TEST(a_folder_is_a_scene),
         FOLDER_TEST(maps_may_be_openexr),
+        FOLDER_TEST(png_is_preferred_to_openexr),
         FOLDER_TEST(texels_of_openexr_outside_of_the_range_are_counted),
         FOLDER_TEST(images_of_other_formats_are_named),
         FOLDER_TEST(bad_folders_are_named),
