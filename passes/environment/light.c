@@ -71,15 +71,16 @@ static uint32_t broad_reflection_of(const filter_context *context, const environ
         passes_knob_choice(context, &passes_knob_base) > 0 ||
         source->model != LOBE_MATERIAL_MICROFACET || !metal)
         return 0;
-    const bool widened =
-        ((material->map_bits & 1u << MAP_NORMAL) && !context->filter->keeps_widths) ||
-        source->normal_concentration > 0;
+    const bool bumpy = material->map_bits & 1u << MAP_NORMAL;
+    const bool blurred = source->normal_concentration > 0;
     const float least = material->map_bits & 1u << MAP_WIDTH ? 0 : source->roughness;
-    const float greatest = widened ? 1 : source->roughness;
+    const float greatest = bumpy || blurred ? 1 : source->roughness;
+    const float roughest = context->filter->keeps_widths && !blurred ? source->roughness : greatest;
     uint32_t ways = 0;
+    // Also for level 0, whose lobes normals widen.
     if (greatest > REFLECTED_LOBES_LEAST_ROUGHNESS && least < BROAD_FULL_ROUGHNESS)
         ways |= REFLECTED_AS_LOBES;
-    if (greatest > BROAD_LEAST_ROUGHNESS)
+    if (roughest > BROAD_LEAST_ROUGHNESS)
         ways |= REFLECTED_AS_POLYNOMIAL;
     return ways;
 }
