@@ -94,13 +94,15 @@ bool passes_scene_has_normals_in(const lobe_scene *scene, size_t image) {
 lobe_result passes_scene_check_normals(const lobe_scene *scene, size_t index,
                                        const lobe_host *host) {
     const lobe_scene_image *image = &scene->images[index];
+    if (image->on_device)
+        return LOBE_OK;
     const uint32_t needed = passes_normal_channels(image->normals),
                    channels = lobe_format_channels(image->image.format);
-    if (!image->on_device && passes_format_is_srgb(image->image.format))
+    if (passes_format_is_srgb(image->image.format))
         return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                               "%s: image '%s': normals in the format %s, which is for colours",
                               scene->name, image->name, lobe_format_name(image->image.format));
-    if (image->on_device || channels >= needed || channels == 0) // the image itself is refused
+    if (channels >= needed || channels == 0) // of 0, the image itself is refused
         return LOBE_OK;
     return lobe_host_fail(host, LOBE_ERROR_MALFORMED,
                           "%s: image '%s': normals of %u channels in the format %s, which has %u",

@@ -11,6 +11,20 @@ bool scenes_exr_recognise(const void *bytes, size_t size) {
     return size >= sizeof exr && memcmp(bytes, exr, sizeof exr) == 0;
 }
 
+static void take_level(lobe_exr_contents *contents, lobe_image *image) {
+    *image = contents->levels[0];
+    contents->levels[0] = (lobe_image){0};
+    lobe_exr_contents_free(contents);
+}
+
+void scenes_exr_take_colours(lobe_exr_contents *contents, const char *name, const lobe_host *host,
+                             lobe_image *image) {
+    if (!lobe_image_to_rec709(&contents->levels[0], contents->chromaticities))
+        lobe_host_log(host, LOBE_LOG_WARNING,
+                      "%s: its chromaticities span no colours; taken as those of Rec. 709", name);
+    take_level(contents, image);
+}
+
 /// `colour`: of the primaries of Rec. 709.
 static lobe_result decode(const void *bytes, size_t size, const char *name, bool colour,
                           const lobe_host *host, lobe_image *image, lobe_exr_environment *said) {
@@ -19,14 +33,12 @@ static lobe_result decode(const void *bytes, size_t size, const char *name, bool
     lobe_result result = lobe_exr_decode_contents(name, bytes, size, NULL, host, &contents);
     if (result != LOBE_OK)
         return result;
-    if (colour && !lobe_image_to_rec709(&contents.levels[0], contents.chromaticities))
-        lobe_host_log(host, LOBE_LOG_WARNING,
-                      "%s: its chromaticities span no colours; taken as those of Rec. 709", name);
     if (said)
         *said = contents.environment;
-    *image = contents.levels[0];
-    contents.levels[0] = (lobe_image){0};
-    lobe_exr_contents_free(&contents);
+    if (colour)
+        scenes_exr_take_colours(&contents, name, host, image);
+    else
+        take_level(&contents, image);
     return LOBE_OK;
 }
 

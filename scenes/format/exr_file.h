@@ -12,6 +12,11 @@
 /// Whether a file begins as OpenEXR files do.
 bool scenes_exr_recognise(const void *bytes, size_t size);
 
+/// Moves the finest level out of what was read, with linear colours of the primaries of Rec. 709,
+/// and frees the rest. `name` is for a warning if the file's own primaries span no colours.
+void scenes_exr_take_colours(lobe_exr_contents *contents, const char *name, const lobe_host *host,
+                             lobe_image *image);
+
 /// The finest level of the main layer, with linear colours of the primaries of Rec. 709, as
 /// RGBA32_FLOAT. `said` (NULL: not wanted): see lobe_exr_contents. On failure `image` is empty.
 /// Errors as lobe_exr_decode_contents.

@@ -88,26 +88,26 @@ static bool is_form(const char *word) {
 
 /// The map of a name that says `workflow` last, after a map and its form, as in Poliigon's
 /// "Bricks_COL_2K_METALNESS"; NULL: it does not end so.
-static const char *map_before_workflow(const material_name *name, const char *workflow) {
+static const map_word *map_before_workflow(const material_name *name, const char *workflow) {
     if (name->count < 3 || strcmp(name->words[name->count - 1], workflow) != 0)
         return NULL;
     size_t end = name->count - 1;
     while (end > 0 && is_form(name->words[end - 1]))
         end--;
     const char *word = end > 0 && end < name->count - 1 ? name->words[end - 1] : NULL;
-    return word && scenes_material_map_word(word, strlen(word)) ? word : NULL;
+    return word ? scenes_material_map_word(word, strlen(word)) : NULL;
 }
 
 /// Whether names of different maps end with it: else it is a map ("Metal_1K_Metalness").
 static bool is_workflow(const material_files *found, const char *workflow) {
-    material_name first, name;
-    const char *map = NULL;
+    const map_word *first = NULL;
     for (size_t i = 0; i < found->count; i++) {
-        scenes_material_name_split(found->files[i].name, map ? &name : &first);
-        const char *word = map_before_workflow(map ? &name : &first, workflow);
-        if (map && word && strcmp(word, map) != 0)
+        material_name name;
+        scenes_material_name_split(found->files[i].name, &name);
+        const map_word *map = map_before_workflow(&name, workflow);
+        if (first && map && map != first)
             return true;
-        map = map ? map : word;
+        first = first ? first : map;
     }
     return false;
 }

@@ -8,6 +8,8 @@
 #include <lobe/exr.h>
 #include <lobe/png.h>
 
+#include "scenes/format/exr_file.h"
+
 /// Also false if the file cannot be read: then reading it as OpenEXR reports why.
 static bool is_png(const char *path) {
     static const uint8_t signature[4] = {0x89, 'P', 'N', 'G'};
@@ -48,15 +50,9 @@ static lobe_result read_exr(const char *path, const lobe_host *host, lobe_image 
     lobe_exr_contents contents;
     *image = (lobe_image){0};
     lobe_result result = lobe_exr_read_contents(path, NULL, host, &contents);
-    if (result != LOBE_OK)
-        return result;
-    if (!lobe_image_to_rec709(&contents.levels[0], contents.chromaticities))
-        lobe_host_log(host, LOBE_LOG_WARNING,
-                      "%s: its chromaticities span no colours; taken as those of Rec. 709", path);
-    *image = contents.levels[0];
-    contents.levels[0] = (lobe_image){0};
-    lobe_exr_contents_free(&contents);
-    return LOBE_OK;
+    if (result == LOBE_OK)
+        scenes_exr_take_colours(&contents, path, host, image);
+    return result;
 }
 
 lobe_result image_input_read(const char *path, const lobe_host *host, image_input *input) {

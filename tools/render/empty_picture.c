@@ -19,7 +19,7 @@ bool empty_picture_is_black(const lobe_image *radiance) {
     for (size_t i = 0; i < (size_t)radiance->width * radiance->height; i++)
         if (texels[4 * i] != 0 || texels[4 * i + 1] != 0 || texels[4 * i + 2] != 0)
             return false;
-    return !empty_picture_recognise(radiance);
+    return true;
 }
 
 /// The camera's axes, and the tangents of half its angles; of an orthographic one, half its

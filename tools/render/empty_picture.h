@@ -10,7 +10,7 @@
 /// Whether no pixel of a picture is covered: alpha is 0 everywhere.
 bool empty_picture_recognise(const lobe_image *radiance);
 
-/// Whether a picture is black: something is covered, but all radiance is 0.
+/// Whether all radiance of a picture is 0, as it also is of an empty one.
 bool empty_picture_is_black(const lobe_image *radiance);
 
 /// Why the scene's own camera sees nothing, as a line for the user: "the camera looks away from the
