@@ -46,7 +46,7 @@ static bool is_known(const double *likelihoods, uint32_t start) {
     return false;
 }
 
-/// Logarithms, so that what a broad light shows of sharp lobes counts as much as what a point does,
+/// Logarithms, so that what a broad light shows of sharp lobes counts as much as what a lamp does,
 /// under which no bins match them. Of bins with the footprint's colour and with their own.
 static void compare(const footprint_set *set, const footprint_lobes *lobes,
                     const plane_mixture *mixture, double logarithms[2]) {

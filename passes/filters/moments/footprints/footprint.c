@@ -7,8 +7,14 @@
 #include "passes/upload/colours/material_colours.h"
 #include "shaders/interface/mirrored.h"
 
-/// Variance of half vectors under the broad light: what it shows is 0.1 radians wide.
-static const double broad_light = 0.01;
+/// Variances of half vectors under the lamp and under the broad light: what they show is at least
+/// 0.01 and 0.1 radians wide.
+static const double variances[FOOTPRINT_LIGHTS] = {0.0001, 0.01};
+
+/// In means over all half vectors: where the lobes reflect more of the lamp, errors count relative
+/// to what they reflect. Otherwise nothing but the peaks of the sharpest lobes would count, which
+/// pixels seldom see.
+static const double bright = 40;
 
 /// A Gaussian: peak exp(-1/2 d^T inverse d).
 typedef struct bell {
@@ -77,10 +83,8 @@ static double weight_of(const double place[2]) {
     return fmax(square * square, 1e-6);
 }
 
-/// What an integral over half vectors counts a place as.
-static double part_of(const footprint_light *light, uint32_t place) {
-    return weight_of(light->places[place]) / fmax(light->densities[place], 1e-30);
-}
+/// The integral of weight_of.
+static const double all_weights = 2 * M_PI / 5;
 
 static void find_truth(const footprint *patch, footprint_light *light) {
     for (uint32_t k = 0; k < patch->count; k++) {
@@ -93,13 +97,40 @@ static void find_truth(const footprint *patch, footprint_light *light) {
                 light->truth[i][j] += value * lobe->specular[j];
         }
     }
-    light->square = light->whites = 0;
+}
+
+static double mean_of_channels(const double colour[3]) {
+    return (colour[0] + colour[1] + colour[2]) / 3;
+}
+
+/// What sums count places as: integrals over half vectors, of squares relative to what is bright.
+static void find_parts(const footprint *patch, footprint_light *light) {
+    const double diffuse = mean_of_channels(patch->diffuse);
+    double sum = 0;
     for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
-        const double *truth = light->truth[i], white = light->densities[i];
-        light->square +=
-            part_of(light, i) * (truth[0] * truth[0] + truth[1] * truth[1] + truth[2] * truth[2]);
-        light->whites += part_of(light, i) * 3 * white * white;
+        light->parts[i] =
+            weight_of(light->places[i]) / (FOOTPRINT_PLACES * fmax(light->densities[i], 1e-30));
+        sum += light->parts[i] * mean_of_channels(light->truth[i]);
     }
+    const double level = bright * (sum / all_weights + diffuse);
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES && light->variance < variances[1]; i++) {
+        const double ratio = (mean_of_channels(light->truth[i]) + diffuse) / fmax(level, 1e-30);
+        light->parts[i] /= 1 + ratio * ratio;
+    }
+}
+
+/// Lambert's part, too: what a lobe adds to that hardly shows where it is darker.
+static void find_squares(const footprint *patch, footprint_light *light) {
+    light->shown = light->whites = 0;
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
+        const double part = light->parts[i], white = light->densities[i];
+        for (int j = 0; j < 3; j++)
+            light->shown +=
+                part * light->truth[i][j] * (light->truth[i][j] + 2 * patch->diffuse[j]);
+        light->whites += part * 3 * white * white;
+    }
+    for (int j = 0; j < 3; j++)
+        light->shown += all_weights * patch->diffuse[j] * patch->diffuse[j];
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -109,6 +140,14 @@ static void find_truth(const footprint *patch, footprint_light *light) {
 static double diffuse_of(double albedo, double metallic, bool microfacet) {
     double reflectance = microfacet ? passes_reflectance_of(albedo, metallic) : 0;
     return albedo * (1 - metallic) * (1 - reflectance);
+}
+
+/// From a diffuse colour to what Lambert's part reflects in units of a distribution's density: of
+/// 1/pi times a usual cosine, and a specular lobe reflects a quarter of that density (Walter et al.
+/// 2007, Eq. 20), a half-vector lobe all of it.
+static double lambert_scale(bool microfacet) {
+    static const double usual_cosine = 0.7;
+    return usual_cosine * (microfacet ? 4 : 1) / M_PI;
 }
 
 /// Averaged maps multiply means: the colour of metal by how much is metal.
@@ -134,6 +173,8 @@ static void average_colours(footprint *patch) {
         all += (diffuse[j] + specular[j]) / total;
     }
     patch->diffuse_error = all > 0 ? error / all : 0;
+    for (int j = 0; j < 3; j++)
+        patch->diffuse[j] = lambert_scale(microfacet) * patch->base_colour[j] * diffuse[j] / total;
 }
 
 /// As shaders/filters/moments/mirrored.glsl.
@@ -152,7 +193,7 @@ static bool mirrors_alike(const footprint *patch) {
 }
 
 bool passes_footprint_is_sharp(double variance) {
-    return variance < broad_light;
+    return variance < variances[1];
 }
 
 void passes_footprint_normalise(plane_sample *lobes, uint32_t count) {
@@ -165,12 +206,15 @@ void passes_footprint_normalise(plane_sample *lobes, uint32_t count) {
 
 void passes_footprint_complete(footprint *patch) {
     passes_footprint_normalise(patch->lobes, patch->count);
-    for (uint32_t i = 0; i < patch->light_count; i++) {
-        patch->lights[i].variance = i * broad_light;
-        draw_places(patch, &patch->lights[i]);
-        find_truth(patch, &patch->lights[i]);
-    }
     average_colours(patch);
+    for (uint32_t i = 0; i < patch->light_count; i++) {
+        footprint_light *light = &patch->lights[i];
+        light->variance = variances[i];
+        draw_places(patch, light);
+        find_truth(patch, light);
+        find_parts(patch, light);
+        find_squares(patch, light);
+    }
     patch->mirrors_alike = mirrors_alike(patch);
 }
 
@@ -284,7 +328,7 @@ static footprint_error compare_light(const footprint *patch, const footprint_lig
             for (int j = 0; j < 3; j++)
                 coloured[j] += value * bins[k].colour[j];
         }
-        const double part = part_of(light, i);
+        const double part = light->parts[i];
         for (int j = 0; j < 3; j++) {
             double truth = light->truth[i][j];
             double mean = all * patch->colour[j] - truth, own = coloured[j] - truth;

@@ -110,7 +110,7 @@ static void find_units(const footprint_set *set, uint32_t light, double units[FO
     double colours[FOOTPRINTS], mean = 0;
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
         const footprint_light *lit = &set->all[i].lights[light];
-        colours[i] = sqrt(lit->square / fmax(lit->whites, 1e-30));
+        colours[i] = sqrt(lit->shown / fmax(lit->whites, 1e-30));
         mean += colours[i] / FOOTPRINTS;
     }
     for (uint32_t i = 0; i < FOOTPRINTS; i++) {
@@ -137,6 +137,8 @@ footprint_set *passes_footprint_set_read(const device_scene *scene, const device
         one->lobes = set->lobes + (size_t)i * LOBES;
         one->log_normal = material->distribution == LOBE_DISTRIBUTION_GGX;
         one->microfacet = material->material->model == LOBE_MATERIAL_MICROFACET;
+        for (uint32_t k = 0; k < 3; k++)
+            one->base_colour[k] = (double)material->values.base_colour[k];
         one->light_count = lights;
         if (i < FOOTPRINT_SQUARES)
             one->count = read_square(scene->scene, material, &mask, i, false, one->lobes);

@@ -155,6 +155,40 @@ static void sharp_lobes_of_many_directions_take_several_bins(void **state) {
                 3);
 }
 
+/// Of pyramids of a dielectric of this diffuse colour.
+static uint32_t bins_of_pyramids_over(fixture *f, float diffuse) {
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.4, 0);
+    for (int i = 0; i < 3; i++)
+        material.base_colour[i] = diffuse;
+    material.normal_map = scene_add_map(scene, pyramids(64));
+    return partition_of(f, scene, &material, PARTITION_FITTED, AUTOMATIC, false).bins;
+}
+
+/// Four hundredths of the light hardly show beside Lambert's part.
+static void lobes_that_are_hardly_seen_take_fewer_bins(void **state) {
+    const uint32_t bright = bins_of_pyramids_over(*state, 0.9f);
+    assert_true(bright < 4);
+    assert_true(bins_of_pyramids_over(*state, 0.005f) > bright + 1);
+}
+
+/// Polish outshines the few rough texels where both are seen, but is seen from fewer directions.
+static void few_rough_texels_among_polish_have_a_bin(void **state) {
+    enum { EXTENT = 64 };
+    lobe_scene *scene = scene_begin();
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 1);
+    lobe_image widths = random_map(EXTENT, EXTENT, 0, 1, 51);
+    for (uint32_t i = 0; i < EXTENT * EXTENT; i++) {
+        float *width = (float *)widths.texels + (size_t)4 * i;
+        width[1] = width[1] < 0.05f ? 0.5f : 0.06f;
+        width[2] = 1;
+    }
+    material.metallic_roughness_map = scene_add_map(scene, widths);
+    material.normal_map = scene_add_map(scene, random_normal_map(EXTENT, EXTENT, 0.04, 52));
+    assert_int_equal(
+        partition_of(*state, scene, &material, PARTITION_FITTED, AUTOMATIC, false).bins, 2);
+}
+
 /// Of noise on rough metal, where each further bin gains a little.
 static uint32_t bins_of_noise_at_gain(fixture *f, double gain) {
     lobe_scene *scene = scene_begin();
@@ -460,6 +494,8 @@ int main(void) {
         cmocka_unit_test(widths_are_told_apart),
         cmocka_unit_test(as_many_bins_as_pay),
         cmocka_unit_test(sharp_lobes_of_many_directions_take_several_bins),
+        cmocka_unit_test(lobes_that_are_hardly_seen_take_fewer_bins),
+        cmocka_unit_test(few_rough_texels_among_polish_have_a_bin),
         cmocka_unit_test(the_less_fetches_must_gain_the_more_bins),
         cmocka_unit_test(small_footprints_take_bins_too),
         cmocka_unit_test(black_texels_decide_nothing),

@@ -275,7 +275,7 @@ typedef struct following {
 
 static void follow_from(fixture *f, make_normals first, double amount, following *all) {
     const partition_request request = {PARTITION_FITTED, {.bins = 3, .colour = BIN_COLOUR_MEAN}};
-    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.2, 0);
+    lobe_material material = microfacet_material(LOBE_DISTRIBUTION_GGX, 0.2, 1);
     *all = (following){.fixture = f, .scene = scene_begin(), .width = 16, .height = 16};
     material.normal_map = scene_add_map(all->scene, first(16, 16, amount));
     scene_end_with_square(all->scene, &material);
