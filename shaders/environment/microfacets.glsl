@@ -381,9 +381,6 @@ const facet_view VIEW_OF_BIN = facet_view(true, false, 0.0);
 
 vec3 prefiltered_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                              float parameter, facet_view view) {
-    bool spread_out = spread_of_normals(lobe.shape, parameter) > 1e-3;
-    if (!spread_out)
-        return reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false, view.top);
     direction_lobe normals =
         lobe_of_normals(lobe.shape, 1.0 / base_lobe_concentration(DISTRIBUTION, parameter));
     normal_parts parts = normal_parts(1u, 0.0);
@@ -417,6 +414,15 @@ vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, v
 vec3 reflect_microfacets(surface_point surface, half_vector_distribution lobe, vec3 f0,
                          float parameter) {
     return reflect_microfacets(surface, lobe, f0, parameter, VIEW_OF_MAP);
+}
+
+// Of one normal. A branch for it above would have a device that runs both sides of branches reflect
+// everything twice.
+vec3 reflect_base_microfacets(surface_point surface, vec3 normal, vec3 f0, float parameter) {
+    half_vector_distribution lobe = base_half_vectors(normal, parameter, surface.outgoing);
+    return ENVIRONMENT_METHOD == ENVIRONMENT_PREFILTERED
+               ? reflect_facing(surface, lobe.shape, lobe.kind, f0, parameter, false, 0.0)
+               : reflect_microfacets(surface, lobe, f0, parameter);
 }
 
 #endif

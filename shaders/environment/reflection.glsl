@@ -24,11 +24,8 @@ vec3 reflect_lambert(surface_point surface, base_material base, vec3 mean_normal
 // Its lobes
 
 vec3 reflect_base_specular(surface_point surface, base_material base) {
-    if (MODEL == MODEL_MICROFACET) {
-        float width = widened_width(base);
-        return reflect_microfacets(surface, base_half_vectors(base.normal, width, surface.outgoing),
-                                   base.specular, width);
-    }
+    if (MODEL == MODEL_MICROFACET)
+        return reflect_base_microfacets(surface, base.normal, base.specular, widened_width(base));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LOBE_COUNT; ++i) {
         vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
