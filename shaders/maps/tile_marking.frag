@@ -98,13 +98,11 @@ void mark_area(map_area area, int map) {
 
 void main() {
     surface_point surface = read_surface();
-    for (int map = 0; map < MAP_SHADING; ++map) {
-        if ((FILTERED_MAPS & (1u << map)) == 0u)
-            continue;
-        vec2 size = vec2(maps[map].width, maps[map].height);
-        if (map == MAP_NORMAL)
-            mark_area(lobe_area(surface), map);
-        else
-            mark_area(area_of(map, size, surface), map);
+    // lavapipe would compute everything for maps that are passed over, too.
+    for (uint left = FILTERED_MAPS; left != 0u; left &= left - 1u) {
+        int map = findLSB(left);
+        bool lobes = map == MAP_NORMAL;
+        vec2 size = lobes ? lobe_map_size() : vec2(maps[map].width, maps[map].height);
+        mark_area(area_of(lobes ? lobe_map() : map, size, surface), map);
     }
 }
