@@ -35,6 +35,7 @@ layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
 layout(constant_id = SPECIALISE_TRANSFER_MAGNIFIED) const bool MAGNIFIED = false;
 layout(constant_id = SPECIALISE_TRANSFER_WIDTHS) const bool WIDTHS_ON_RELIEF = false;
+layout(constant_id = SPECIALISE_TRANSFER_EMISSION) const bool EMISSIVE = false;
 
 layout(LOBE_DESCRIPTOR(36)) uniform sampler2DArray transfer_map;
 layout(LOBE_DESCRIPTOR(37), std140) uniform closure_block {
@@ -58,6 +59,9 @@ const uint FURTHER_LAYERS = TRANSFER_FURTHER_LAYERS(ORDER);
 // The visible area is last.
 const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
                              : (FACETS ? FIRST_LAYERS : FURTHER_LAYERS);
+
+// Layers of emission begin here.
+const uint FIRST_EMISSION = FIRST_LAYERS + (COLOURED ? 2u * FURTHER_LAYERS : 0u);
 
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;
@@ -177,14 +181,6 @@ surface_point seen_surface(surface_point surface) {
         surface.coordinates += drawn.near.share *
                                (drawn.near.surface.coordinates - surface.coordinates);
     return surface;
-}
-
-appearance fetch_appearance(surface_point surface) {
-    lay_relief_on(surface);
-    if (!NEAR || !has_diffuse())
-        return fetch_averaged_appearance(surface, surface);
-    find_near_facet(surface);
-    return fetch_averaged_appearance(surface, seen_surface(surface));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -403,6 +399,74 @@ void divide_form(bool lit) {
     float hidden = lacking * scale;
     mix_form(vec2(scale), of_all, vec2(hidden + (lit ? near : 0.0), hidden + near) / of_all.seen);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Emission
+
+// Radiance that facets send to the viewer because they shine, and that others reflect of it.
+// `near`: of the facet that a near pixel sees, which its own map says.
+//
+// Where a viewer sees less of a cell than of the map, the rest is what he sees behind it: as the
+// cell shows to viewers everywhere, in proportion to what the map shows to him rather than to these.
+vec3 emission_of_relief(surface_point surface, vec3 near) {
+    const uint FIRST_AREA = TRANSFER_ENTRIES(ORDER) / 4u;
+    map_area area = transfer_area(NEAR ? seen_surface(surface) : surface);
+    vec4 seen[FIRST_LAYERS - FIRST_AREA], layers[TRANSFER_EMISSION_LAYERS(ORDER)];
+    for (uint i = 0u; i < FIRST_LAYERS - FIRST_AREA; ++i)
+        seen[i] = filtered_layer(transfer_map, area, FIRST_AREA + i);
+    for (uint i = 0u; i < TRANSFER_EMISSION_LAYERS(ORDER); ++i)
+        layers[i] = filtered_layer(transfer_map, area, FIRST_EMISSION + i);
+    polynomials viewer = polynomials_of(viewer_of(surface));
+    float functions[ORDER];
+    in_functions(viewer, functions);
+    vec3 sent = vec3(0.0), sent_to_all = vec3(0.0), of_map = vec3(0.0), of_map_to_all = vec3(0.0);
+    float visible = 0.0, visible_to_all = 0.0;
+    for (uint k = 0u; k < ORDER; ++k) {
+        float to_all = INVERSE_PI * closure.basis.integrals[k / 4u][k % 4u];
+        uint place = TRANSFER_ENTRIES(ORDER) + k - 4u * FIRST_AREA;
+        visible += functions[k] * seen[place / 4u][place % 4u];
+        visible_to_all += to_all * seen[place / 4u][place % 4u];
+        vec3 own;
+        for (uint channel = 0u; channel < 3u; ++channel) {
+            uint entry = channel * TRANSFER_EMISSION(ORDER) + k;
+            own[channel] = layers[entry / 4u][entry % 4u];
+        }
+        sent += functions[k] * own;
+        sent_to_all += to_all * own;
+        of_map += functions[k] * closure.emission[k].rgb;
+        of_map_to_all += to_all * closure.emission[k].rgb;
+    }
+    vec3 of_others;
+    for (uint channel = 0u; channel < 3u; ++channel) {
+        uint entry = channel * TRANSFER_EMISSION(ORDER) + ORDER;
+        of_others[channel] = layers[entry / 4u][entry % 4u];
+    }
+    visible_to_all = max(visible_to_all, LEAST_LIT);
+    polynomials map = polynomials(closure.visible);
+    float of_plane = max(product(map, viewer), 1e-6);
+    float plane_to_all = INVERSE_PI * product(map, integrals_of_polynomials());
+    vec3 falls = max(of_map, 0.0) * plane_to_all / max(of_map_to_all * of_plane, vec3(1e-9));
+    vec3 behind = max(of_plane - visible, 0.0) * falls * sent_to_all / visible_to_all;
+    vec3 sum = (max(sent, 0.0) + behind) / max(visible, of_plane);
+    return NEAR ? mix(sum, near + max(of_others, 0.0) / visible_to_all, drawn.near.share) : sum;
+}
+
+appearance fetch_appearance(surface_point surface) {
+    lay_relief_on(surface);
+    surface_point seen = surface;
+    drawn.near.share = 0.0;
+    if (NEAR && has_diffuse()) {
+        find_near_facet(surface);
+        seen = seen_surface(surface);
+    }
+    appearance fetched = fetch_averaged_appearance(surface, seen);
+    if (EMISSIVE)
+        fetched.emission = emission_of_relief(surface, fetched.emission);
+    return fetched;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Of a footprint's light
 
 void gather_relief(surface_point surface, bool lit) {
     drawn.viewer = viewer_of(surface);

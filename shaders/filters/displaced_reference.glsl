@@ -6,7 +6,7 @@
 // Facets have the base material without its normal map. At each of their vertices paths are joined
 // to the lights; the environment's light is sampled from the environment and from the material, and
 // weighted by the balance heuristic (Veach, Guibas, 1995, Optimally Combining Sampling Techniques
-// for Monte Carlo Rendering).
+// for Monte Carlo Rendering). What facets emit is found where a path meets them.
 //
 // A material without a relief is shaded as `direct` does.
 
@@ -135,8 +135,26 @@ bool go_on(inout path walk, surface_point surface) {
 // ---------------------------------------------------------------------------------------------
 // A pixel
 
+vec3 emission_at(surface_point surface) {
+    return unfiltered_texel(MAP_EMISSIVE, emissive_map, surface).rgb;
+}
+
+// What other facets emit, by a path from the one that is seen.
+vec3 emission_of_others(path_vertex first, surface_point surface) {
+    random_numbers numbers = random_numbers_of(surface, 5u);
+    path walk = path(first, vec3(1.0), vec3(0.0), 0.0);
+    vec3 sum = vec3(0.0);
+    for (uint i = 1u; i < PATH_VERTICES; ++i) {
+        if (!choose_direction(walk, i, numbers) || !go_on(walk, surface))
+            break;
+        sum += walk.throughput * emission_at(surface_at(surface, walk.vertex.hit.position));
+    }
+    return sum;
+}
+
 appearance fetch_appearance(surface_point surface) {
     appearance result;
+    surface_point carrier = surface;
     lay_relief_on(surface);
     result.base = unfiltered_material(surface);
     result.normal = result.base.normal;
@@ -154,7 +172,9 @@ appearance fetch_appearance(surface_point surface) {
     result.kept = !ALPHA_MASK || is_kept(unfiltered_base_colour(surface).a, surface);
     result.emission = vec3(0.0);
     if (EMISSION)
-        result.emission = unfiltered_texel(MAP_EMISSIVE, emissive_map, surface).rgb;
+        result.emission = emission_at(surface);
+    if (EMISSION && RELIEF)
+        result.emission += emission_of_others(result.first, carrier);
     result.lobe_count = float(LOBE_COUNT);
     result.level = 0.0;
     return result;

@@ -1,6 +1,7 @@
 #include "passes/filters/displaced/cells.h"
 
 #include "passes/filters/displaced/facet_colours.h"
+#include "passes/filters/displaced/facet_emission.h"
 #include "passes/maps/base_maps.h"
 #include "passes/upload/material_maps.h"
 
@@ -72,22 +73,27 @@ static void add_bounces(cells_build *build, uint32_t channel) {
 
 uint32_t passes_transfer_layers(const transfer_kind *kind) {
     return TRANSFER_FIRST_LAYERS(kind->order) +
-           (kind->coloured ? 2 * TRANSFER_FURTHER_LAYERS(kind->order) : 0);
+           (kind->coloured ? 2 * TRANSFER_FURTHER_LAYERS(kind->order) : 0) +
+           (kind->emissive ? TRANSFER_EMISSION_LAYERS(kind->order) : 0);
 }
 
 uint32_t passes_facet_layers(const transfer_kind *kind) {
     return (kind->widths ? 3 : 2) * FACET_BINS;
 }
 
+static void write_layers(const cells_build *build, lobe_pass *pass, uint32_t first,
+                         uint32_t count) {
+    reduced_map *map = build->target->transfer;
+    const lobe_binding target = {"transfer_map", map->resource, .range = {0, 1, first, count}};
+    map->resource = map->keeps ? lobe_pass_modify(pass, &target) : lobe_pass_write(pass, &target);
+}
+
 /// Binds the layers of one channel.
 static void write_channel(const cells_build *build, lobe_pass *pass, uint32_t channel) {
     const uint32_t order = build->source->kind->order, first = TRANSFER_FIRST_LAYERS(order),
                    further = TRANSFER_FURTHER_LAYERS(order);
-    reduced_map *map = build->target->transfer;
-    const lobe_binding target = {"transfer_map", map->resource,
-                                 .range = {0, 1, channel == 0 ? 0 : first + (channel - 1) * further,
-                                           channel == 0 ? first : further}};
-    map->resource = map->keeps ? lobe_pass_modify(pass, &target) : lobe_pass_write(pass, &target);
+    write_layers(build, pass, channel == 0 ? 0 : first + (channel - 1) * further,
+                 channel == 0 ? first : further);
 }
 
 static void dispatch(const cells_build *build, lobe_pass *pass, const char *shader,
@@ -118,6 +124,24 @@ static lobe_pass *add_transfer(const cells_build *build, uint32_t channel) {
     return pass;
 }
 
+static lobe_pass *add_emission(const cells_build *build, lobe_resource colours) {
+    const cells_source *source = build->source;
+    const facet_emission light = passes_facet_emission(source, colours);
+    lobe_pass *pass =
+        lobe_graph_add_pass(source->context->graph, LOBE_PASS_COMPUTE, "cell_emission");
+    passes_relief_read(source->relief, pass);
+    lobe_pass_read(pass, &(lobe_binding){.name = "basis_block", .resource = source->seen->basis});
+    lobe_pass_read(pass,
+                   &(lobe_binding){.name = "transfer_words", .resource = source->seen->words});
+    lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = light.sent});
+    lobe_pass_read(pass, &(lobe_binding){.name = "emitted_block", .resource = light.emitted});
+    const uint32_t layers = passes_transfer_layers(source->kind),
+                   count = TRANSFER_EMISSION_LAYERS(source->kind->order);
+    write_layers(build, pass, layers - count, count);
+    dispatch(build, pass, "filters/displaced/cell_emission.comp", 0);
+    return pass;
+}
+
 static lobe_pass *add_normals(const cells_build *build) {
     const cells_source *source = build->source;
     lobe_pass *pass =
@@ -142,13 +166,18 @@ static lobe_pass *add_normals(const cells_build *build) {
 cell_passes passes_cells_add(const cells_source *source, const cells_target *target) {
     cells_build build = {.source = source, .target = target, .colours = source->seen->links};
     cell_passes cells = {.count = source->kind->coloured ? 3 : 1};
-    if (source->kind->coloured)
-        build.colours =
+    lobe_resource colours = build.colours;
+    if (source->kind->coloured || source->kind->emissive)
+        colours =
             passes_facet_colours(source->context, source->material, source->relief, source->window);
+    if (source->kind->coloured)
+        build.colours = colours;
     for (uint32_t channel = 0; channel < cells.count; channel++) {
         add_bounces(&build, channel);
         cells.passes[channel] = add_transfer(&build, channel);
     }
+    if (source->kind->emissive)
+        cells.passes[cells.count++] = add_emission(&build, colours);
     if (source->kind->normals)
         cells.passes[cells.count++] = add_normals(&build);
     return cells;

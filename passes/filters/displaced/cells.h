@@ -27,7 +27,7 @@ typedef struct cells_target {
 
 /// The passes that write them: layers do not depend on each other.
 typedef struct cell_passes {
-    lobe_pass *passes[4];
+    lobe_pass *passes[5];
     uint32_t count;
 } cell_passes;
 
@@ -35,7 +35,8 @@ typedef struct cell_passes {
 uint32_t passes_transfer_layers(const transfer_kind *kind);
 uint32_t passes_facet_layers(const transfer_kind *kind);
 
-/// Adds facet_colours, facet_bounces, cell_transfer and facet_normals.
+/// Adds facet_colours, facet_bounces, cell_transfer, facet_emission, cell_emission and
+/// facet_normals, as far as the kind needs them.
 cell_passes passes_cells_add(const cells_source *source, const cells_target *target);
 
 #endif

@@ -82,6 +82,7 @@ static transfer_kind kind_of(const filter_context *context, const device_materia
                       : LOBE_FORMAT_RGBA32_FLOAT,
         .normals = material->material->model == LOBE_MATERIAL_MICROFACET,
         .coloured = passes_has_coloured_relief(material),
+        .emissive = passes_has_emissive_relief(material),
         .widths = passes_has_widths_on_relief(material),
     };
 }
@@ -162,6 +163,8 @@ static void build(const filter_context *context, size_t instance, const void *pr
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_ORDER, order_of(context));
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_COLOURED,
                                  has_relief && passes_has_coloured_relief(material));
+    passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_EMISSION,
+                                 has_relief && passes_has_emissive_relief(material));
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_WIDTHS,
                                  has_relief && passes_has_widths_on_relief(material));
     passes_appearance_specialise(appearance, SPECIALISE_TRANSFER_MAGNIFIED,

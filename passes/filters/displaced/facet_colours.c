@@ -28,6 +28,13 @@ bool passes_has_widths_on_relief(const device_material *material) {
            material->widths_vary && passes_lies_on_relief(material, MAP_WIDTH);
 }
 
+bool passes_has_emissive_relief(const device_material *material) {
+    const float *emissive = material->material->emissive;
+    return passes_has_relief(material) &&
+           (emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0) &&
+           passes_lies_on_relief(material, MAP_EMISSIVE);
+}
+
 /// At how many points, along a side, colours are read in a facet so that none of a map is missed.
 static uint32_t colour_points(const device_material *material) {
     const device_map *heights = &material->maps[MAP_HEIGHT];

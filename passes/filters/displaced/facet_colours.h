@@ -14,6 +14,8 @@ bool passes_lies_on_relief(const device_material *material, uint32_t map);
 bool passes_has_coloured_relief(const device_material *material);
 /// Whether microfacets' roughness varies over its relief in such a way.
 bool passes_has_widths_on_relief(const device_material *material);
+/// Whether a material's relief shines: evenly, or by a map that lies on the surface in such a way.
+bool passes_has_emissive_relief(const device_material *material);
 
 /// Adds facet_colours: TRANSFER_COLOUR_WORDS for each facet of a window.
 lobe_resource passes_facet_colours(const filter_context *context, uint32_t material,

@@ -28,7 +28,8 @@ static lobe_resource declare(const facets_request *request, const char *name, si
         request->graph,
         &(lobe_buffer_description){.name = of_material,
                                    .size = size,
-                                   .retained = request->kind->coloured || request->in_parts});
+                                   .retained = request->kind->coloured ||
+                                               request->kind->emissive || request->in_parts});
 }
 
 static uint32_t basis_cells(uint32_t quads) {

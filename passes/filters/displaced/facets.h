@@ -34,7 +34,7 @@ typedef struct facets_request {
     const transfer_kind *kind;
     lobe_resource basis; ///< that was found elsewhere; all zero: it is found here
     /// What the passes make is kept between frames, about 40 bytes a facet. It also is where
-    /// colours vary, of the last window.
+    /// colours vary or facets shine, of the last window.
     bool in_parts;
 } facets_request;
 

@@ -15,6 +15,7 @@ static uint64_t kind_digest(const transfer_kind *kind) {
                                 kind->normals,
                                 (uint64_t)kind->format,
                                 kind->coloured,
+                                kind->emissive,
                                 kind->widths,
                                 passes_transfer_facets(kind)};
     return passes_digest_bytes(TRANSFER_FILE_VERSION, numbers, sizeof numbers);
@@ -22,9 +23,11 @@ static uint64_t kind_digest(const transfer_kind *kind) {
 
 /// The maps that are read, by MAP_...
 static bool is_read(const device_material *material, const transfer_kind *kind, uint32_t map) {
-    const bool colours = kind->coloured && (map == MAP_BASE_COLOUR || map == MAP_WIDTH);
+    const bool colours =
+        (kind->coloured || kind->emissive) && (map == MAP_BASE_COLOUR || map == MAP_WIDTH);
     const bool widths = kind->widths && map == MAP_WIDTH;
-    return map == MAP_HEIGHT || (material->maps[map].use && (colours || widths));
+    const bool emission = kind->emissive && map == MAP_EMISSIVE;
+    return map == MAP_HEIGHT || (material->maps[map].use && (colours || widths || emission));
 }
 
 /// The numbers that are read.
@@ -32,7 +35,7 @@ static uint64_t numbers_digest(const device_material *material, const transfer_k
                                uint64_t digest) {
     const lobe_material *source = material->material;
     digest = passes_digest_bytes(digest, &source->height_scale, sizeof source->height_scale);
-    if (!kind->coloured)
+    if (!kind->coloured && !kind->emissive)
         return digest;
     digest = passes_digest_bytes(digest, material->values.base_colour,
                                  sizeof material->values.base_colour);

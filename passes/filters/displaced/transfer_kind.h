@@ -11,6 +11,7 @@ typedef struct transfer_kind {
     lobe_format format;
     bool normals;         ///< facets' normals are read, for what they mirror
     bool coloured;        ///< the diffuse colour varies over the relief
+    bool emissive;        ///< facets shine
     bool widths;          ///< microfacets' roughness does, which is kept beside normals
     uint64_t most_facets; ///< that buffers hold at a time; 0: as many as they can
 } transfer_kind;
@@ -19,10 +20,10 @@ typedef struct transfer_kind {
 struct transfer_constants passes_transfer_constants(const relief *relief,
                                                     const transfer_kind *kind);
 
-enum { KIND_CONSTANTS = 3 };
+enum { KIND_CONSTANTS = 4 };
 
-/// The map's number of functions, and whether its colours and widths vary, as constants of a
-/// shader.
+/// The map's number of functions, whether its colours and widths vary, and whether it shines, as
+/// constants of a shader.
 typedef struct kind_specialisation {
     lobe_specialisation items[KIND_CONSTANTS];
 } kind_specialisation;

@@ -72,7 +72,7 @@ uint64_t passes_transfer_bytes(const device_material *material, const transfer_k
 uint64_t passes_transfer_making_bytes(const device_material *material, const transfer_kind *kind) {
     const window_grid grid = passes_transfer_grid(material, kind);
     const uint64_t words = TRANSFER_WORDS(kind->order) + TRANSFER_LINKS + 3 * TRANSFER_INDIRECT +
-                           (kind->coloured ? TRANSFER_COLOUR_WORDS : 0);
+                           (kind->coloured || kind->emissive ? TRANSFER_COLOUR_WORDS : 0);
     return most_facets(&grid) * words * sizeof(uint32_t);
 }
 

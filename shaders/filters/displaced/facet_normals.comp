@@ -30,9 +30,8 @@ vec4 layers[3 * FACET_BINS];
 
 // Of the map's roughness.
 float mean_square_roughness(facet here) {
-    const uint MOST_POINTS = 8u;
-    vec2 size = vec2(relief_size()), texels = ceil(vec2(textureSize(width_map, 0)) / size);
-    uint points = clamp(uint(max(texels.x, texels.y)), 1u, MOST_POINTS);
+    vec2 size = vec2(relief_size());
+    uint points = facet_points(textureSize(width_map, 0), relief_size());
     float sum = 0.0;
     for (uint i = 0u; i < points * points; ++i) {
         vec2 inside = point_in_facet(i, points, here.upper);

@@ -9,6 +9,7 @@
 
 layout(constant_id = SPECIALISE_TRANSFER_ORDER) const uint ORDER = 9;
 layout(constant_id = SPECIALISE_TRANSFER_COLOURED) const bool COLOURED = false;
+layout(constant_id = SPECIALISE_TRANSFER_EMISSION) const bool EMISSIVE = false;
 
 layout(local_size_x = 1) in;
 
@@ -21,6 +22,8 @@ layout(set = 0, binding = 2, std430) readonly buffer basis_block {
 };
 
 const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
+const uint EMISSION = 4u * (TRANSFER_FIRST_LAYERS(ORDER) +
+                            (COLOURED ? 2u * TRANSFER_FURTHER_LAYERS(ORDER) : 0u));
 
 float entry(uint i) {
     return texelFetch(transfer_map, ivec3(0, 0, i / 4u), 0)[i % 4u];
@@ -69,4 +72,10 @@ void main() {
     closure.persistence = !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
     closure.basis = basis;
+    for (uint k = 0u; k < ORDER; ++k) {
+        vec4 sum = vec4(0.0);
+        for (uint channel = 0u; EMISSIVE && channel < 3u; ++channel)
+            sum[channel] = entry(EMISSION + channel * TRANSFER_EMISSION(ORDER) + k);
+        closure.emission[k] = sum;
+    }
 }

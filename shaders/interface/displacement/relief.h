@@ -65,6 +65,12 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 // below what the facet mirrors at right angles, N has a factor r, all that a facet reflects, and o
 // is of light that is multiplied by r at each facet. What has met one other facet is the mean of s
 // instead.
+//
+// Where facets shine, emission comes after all channels, for red, green and blue:
+// n                    mean a m b: the light that is sent in each direction. m is what a facet
+//                      emits, e, and what it reflects of others', evenly: m = e + r mean m over
+//                      its links
+// then 1               mean a (m - e) b, integrated over all directions over pi
 #define TRANSFER_MAXIMUM_ORDER  9
 #define TRANSFER_BASIS_TERMS    16 // polynomials that a function is a sum of
 #define TRANSFER_INDIRECT       4
@@ -78,6 +84,9 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 #define TRANSFER_ENTRIES(order)        (TRANSFER_DIRECT_COUNT(order) + TRANSFER_INDIRECT_COUNT + 1u)
 #define TRANSFER_FIRST_LAYERS(order)   ((TRANSFER_ENTRIES(order) + (order) + 3u) / 4u)
 #define TRANSFER_FURTHER_LAYERS(order) ((TRANSFER_ENTRIES(order) + 3u) / 4u)
+// Entries of emission of a channel, and layers of all three.
+#define TRANSFER_EMISSION(order)        ((order) + 1u)
+#define TRANSFER_EMISSION_LAYERS(order) ((3u * TRANSFER_EMISSION(order) + 3u) / 4u)
 
 // The functions, made for each map by transfer_basis: sums of the polynomials of
 // lib/displacement/transfer_basis.glsl, orthonormal. The first is the first polynomial; the others
@@ -123,13 +132,15 @@ struct transfer_closure_constants {
     float persistence; // [0, 1): the part of light between facets that meets another one
     float direct;      // the part of diffuse light that a white relief reflects at once
     float padding;
+    float4 emission[TRANSFER_MAXIMUM_ORDER]; // mean a m b, of all channels
 };
-INTERFACE_SIZE(transfer_closure_constants, 1840)
+INTERFACE_SIZE(transfer_closure_constants, 1984)
 INTERFACE_OFFSET(transfer_closure_constants, lacking, 1696)
 INTERFACE_OFFSET(transfer_closure_constants, visible, 1760)
 INTERFACE_OFFSET(transfer_closure_constants, lost, 1824)
 INTERFACE_OFFSET(transfer_closure_constants, persistence, 1828)
 INTERFACE_OFFSET(transfer_closure_constants, direct, 1832)
+INTERFACE_OFFSET(transfer_closure_constants, emission, 1840)
 
 // The map of facets' normals: of each bin, two layers of means over a cell: p a and p a d_x, p a
 // d_y, p a h; then p a d_x^2, p a d_y^2, p a d_x d_y, p a e, with d the place less the bin's mean,
@@ -150,7 +161,7 @@ struct transfer_constants {
     uint width; // quads of the window
     uint height;
     uint azimuths;
-    uint first;        // facet_bounces: 1 in the first step
+    uint first;        // facet_bounces, facet_emission: 1 in the first step
     uint channel;      // of colour, where that varies
     uint first_thread; // of a band of facet_transfer or facet_links
     uint first_facet;  // of the buffer that these write
@@ -205,6 +216,8 @@ INTERFACE_OFFSET(colour_constants, relief_height, 44)
 #define SPECIALISE_TRANSFER_MAGNIFIED (SPECIALISE_FILTER + 34)
 // bool: microfacets' roughness varies over the relief
 #define SPECIALISE_TRANSFER_WIDTHS (SPECIALISE_FILTER + 39)
+// bool: the relief's facets shine
+#define SPECIALISE_TRANSFER_EMISSION (SPECIALISE_FILTER + 42)
 
 // bool: the material has a relief
 #define SPECIALISE_RELIEF (SPECIALISE_FILTER + 30)

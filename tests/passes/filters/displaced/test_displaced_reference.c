@@ -18,14 +18,20 @@ static void check(double found, double expected, double bound, const char *what,
         fail_msg("%s at %g degrees: %g instead of %g", what, angle, found, expected);
 }
 
-static double draw_under_sky(fixture *f, double albedo, lobe_image map, const double outgoing[3],
-                             const char *setting, uint32_t samples) {
-    const lobe_material material = relief_material(albedo);
-    lobe_scene *scene = relief_plane(&material, map, outgoing, 40);
+static double draw_material_under_sky(fixture *f, const lobe_material *material, lobe_image map,
+                                      const double outgoing[3], const char *setting,
+                                      uint32_t samples) {
+    lobe_scene *scene = relief_plane(material, map, outgoing, 40);
     relief_plane_add_sky(scene);
     double found = relief_plane_draw(f, scene, "displaced-reference", setting, samples);
     lobe_scene_destroy(&scene);
     return found;
+}
+
+static double draw_under_sky(fixture *f, double albedo, lobe_image map, const double outgoing[3],
+                             const char *setting, uint32_t samples) {
+    const lobe_material material = relief_material(albedo);
+    return draw_material_under_sky(f, &material, map, outgoing, setting, samples);
 }
 
 static double draw_under_sun(fixture *f, lobe_image map, const double outgoing[3],
@@ -133,6 +139,21 @@ static void white_reliefs_reflect_all_light(void **state) {
         check(draw_under_sky(*state, 1, relief_map(ROUGH_WIDTH, ROUGH_HEIGHT, rough), outgoing,
                              "bounces=64", 131072),
               1, 0.004, "furnace", angles[i]);
+    }
+}
+
+/// What facets emit makes up for what they absorb.
+static void shining_reliefs_vanish_in_a_furnace(void **state) {
+    lobe_material material = relief_material(0.6);
+    for (int channel = 0; channel < 3; channel++)
+        material.emissive[channel] = 0.4F;
+    for (int i = 0; i < 2; i++) {
+        double outgoing[3];
+        slope_plane_direction(60 * i, 0.7, outgoing);
+        check(draw_material_under_sky(*state, &material,
+                                      relief_map(ROUGH_WIDTH, ROUGH_HEIGHT, rough), outgoing, NULL,
+                                      65536),
+              1, 0.004, "shining furnace", 60 * i);
     }
 }
 
@@ -296,6 +317,7 @@ int main(void) {
         cmocka_unit_test(valley_seen_from_the_light),
         cmocka_unit_test(pits_reflect_the_sky_evenly),
         cmocka_unit_test(white_reliefs_reflect_all_light),
+        cmocka_unit_test(shining_reliefs_vanish_in_a_furnace),
         cmocka_unit_test(light_and_viewer_may_change_places),
         cmocka_unit_test(odd_maps_are_those_of_small_steps),
         cmocka_unit_test(heights_that_are_no_numbers_are_refused),
