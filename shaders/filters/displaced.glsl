@@ -371,6 +371,33 @@ reflected_form form_of_all() {
     return form;
 }
 
+void scale_channel(inout channel_form form, float colour) {
+    form.direct = scaled(form.direct, colour);
+    // Between facets metal counts as well, which has nothing of the diffuse colour.
+    form.indirect = scaled(form.indirect, METALLIC_MAP ? 1.0 : colour * colour);
+}
+
+// The whole map's, as if its colours were those of the cell.
+reflected_form form_of_map(polynomials viewer, float functions[ORDER]) {
+    vec4 own[LAYERS];
+    vec3 colour = drawn.colour;
+    for (uint layer = 0u; layer < LAYERS; ++layer) {
+        own[layer] = transfer_layers[layer];
+        transfer_layers[layer] = closure.mean[layer];
+    }
+    reflected_form form = form_of(viewer, functions);
+    for (uint layer = 0u; layer < LAYERS; ++layer)
+        transfer_layers[layer] = own[layer];
+    if (COLOURED) {
+        vec3 colours = (colour + 0.01) / (drawn.colour + 0.01);
+        scale_channel(form.red, colours.r);
+        scale_channel(form.green, colours.g);
+        scale_channel(form.blue, colours.b);
+    }
+    drawn.colour = colour;
+    return form;
+}
+
 // So much of a form, of light at once and of light between facets, and of another.
 void mix_channel(inout channel_form form, vec2 factors, channel_form other, vec2 of_other) {
     form.direct = sum_of(form.direct, factors.x, other.direct, of_other.x);
@@ -385,19 +412,25 @@ void mix_form(vec2 factors, reflected_form other, vec2 of_other) {
     }
 }
 
-// Divides by the area that is seen. Where that is small, a cell shows what it shows to others, and
-// so does a facet; `lit`: by light at once, for which no ray is followed.
-void divide_form(bool lit) {
-    float lacking = max(LEAST_VISIBLE * drawn.viewer.z - drawn.form.seen, 0.0);
+// Divides by the area that is seen. Where that is less than the map's, which is the carrier's, the
+// viewer sees other cells behind this one: the map's mean. Otherwise cells that show little of
+// themselves would count as much as those that hide them. `lit`: a near facet is lit by light at
+// once, for which no ray is followed.
+void divide_form(polynomials viewer, float functions[ORDER], bool lit) {
+    float all = drawn.viewer.z;
+    if (COLOURED)
+        all = max(product(polynomials(closure.visible), viewer), 1e-6);
+    float behind = max(all - drawn.form.seen, 0.0);
     float near = NEAR ? drawn.near.share : 0.0;
-    float scale = (1.0 - near) / (drawn.form.seen + lacking);
-    if (lacking == 0.0 && near == 0.0) {
-        mix_form(vec2(scale), drawn.form, vec2(0.0));
-        return;
+    float scale = (1.0 - near) / max(drawn.form.seen, all);
+    reflected_form of_map = no_form();
+    if (behind > 0.0)
+        of_map = form_of_map(viewer, functions);
+    mix_form(vec2(scale), of_map, vec2(scale * behind / all));
+    if (near > 0.0) {
+        reflected_form of_all = form_of_all();
+        mix_form(vec2(1.0), of_all, vec2(lit ? near : 0.0, near) / of_all.seen);
     }
-    reflected_form of_all = form_of_all();
-    float hidden = lacking * scale;
-    mix_form(vec2(scale), of_all, vec2(hidden + (lit ? near : 0.0), hidden + near) / of_all.seen);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -407,7 +440,8 @@ void divide_form(bool lit) {
 // `near`: of the facet that a near pixel sees, which its own map says.
 //
 // Where a viewer sees less of a cell than of the map, the rest is what he sees behind it: as the
-// cell shows to viewers everywhere, in proportion to what the map shows to him rather than to these.
+// cell shows to viewers everywhere, in proportion to what the map shows to him rather than to
+// these.
 vec3 emission_of_relief(surface_point surface, vec3 near) {
     const uint FIRST_AREA = TRANSFER_ENTRIES(ORDER) / 4u;
     map_area area = transfer_area(NEAR ? seen_surface(surface) : surface);
@@ -489,7 +523,7 @@ void gather_relief(surface_point surface, bool lit) {
         transfer_products(drawn.area.terms);
         transfer_products(drawn.mean_area.terms);
     }
-    divide_form(lit);
+    divide_form(viewer, functions, lit);
 }
 
 // Of light between facets, by albedo: sums of powers, each less than the one before by the same

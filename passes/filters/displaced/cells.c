@@ -138,7 +138,7 @@ static lobe_pass *add_emission(const cells_build *build, lobe_resource colours) 
     const uint32_t layers = passes_transfer_layers(source->kind),
                    count = TRANSFER_EMISSION_LAYERS(source->kind->order);
     write_layers(build, pass, layers - count, count);
-    dispatch(build, pass, "filters/displaced/cell_emission.comp", 0);
+    dispatch(build, pass, "filters/displaced/emission/cell_emission.comp", 0);
     return pass;
 }
 

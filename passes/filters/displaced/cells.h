@@ -1,22 +1,11 @@
 #ifndef PASSES_FILTERS_DISPLACED_CELLS_H
 #define PASSES_FILTERS_DISPLACED_CELLS_H
 
-#include "passes/context/filter.h"
-#include "passes/filters/displaced/facets.h"
+#include "passes/filters/displaced/cells_source.h"
 #include "passes/maps/level_reduction.h"
 
 /// The texels of level 0 that a window makes of what its facets see: light between facets, and
 /// means over those under each texel.
-
-/// What they are made of.
-typedef struct cells_source {
-    const filter_context *context;
-    uint32_t material;
-    const transfer_kind *kind;
-    const relief *relief;
-    const seen_facets *seen; ///< of the window
-    const facet_window *window;
-} cells_source;
 
 /// Where they go: of maps that begin at this texel of those of the whole relief.
 typedef struct cells_target {

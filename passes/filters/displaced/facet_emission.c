@@ -23,8 +23,8 @@ static lobe_resource add_step(const cells_source *source, lobe_resource colours,
     const lobe_resource links = source->seen->links;
     lobe_pass_read(pass, &(lobe_binding){.name = "emitted_block",
                                          .resource = before ? before->emitted : links});
-    lobe_pass_read(pass, &(lobe_binding){.name = "source_block",
-                                         .resource = before ? before->sent : links});
+    lobe_pass_read(
+        pass, &(lobe_binding){.name = "source_block", .resource = before ? before->sent : links});
     const uint32_t facets = passes_window_facets(source->window);
     const lobe_resource light = lobe_pass_write(
         pass, &(lobe_binding){.name = "target_block",
@@ -36,12 +36,13 @@ static lobe_resource add_step(const cells_source *source, lobe_resource colours,
     passes_window_constants(source->window, &constants);
     constants.first = !before;
     const kind_specialisation kind = specialisation_of(source->kind);
-    lobe_pass_dispatch(pass, &(lobe_dispatch){.shader = "filters/displaced/facet_emission.comp",
-                                              .threads = {facets},
-                                              .constants = &constants,
-                                              .constants_size = sizeof constants,
-                                              .specialisation = kind.items,
-                                              .specialisation_count = KIND_CONSTANTS});
+    lobe_pass_dispatch(pass,
+                       &(lobe_dispatch){.shader = "filters/displaced/emission/facet_emission.comp",
+                                        .threads = {facets},
+                                        .constants = &constants,
+                                        .constants_size = sizeof constants,
+                                        .specialisation = kind.items,
+                                        .specialisation_count = KIND_CONSTANTS});
     return light;
 }
 

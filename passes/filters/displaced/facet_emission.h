@@ -1,7 +1,7 @@
 #ifndef PASSES_FILTERS_DISPLACED_FACET_EMISSION_H
 #define PASSES_FILTERS_DISPLACED_FACET_EMISSION_H
 
-#include "passes/filters/displaced/cells.h"
+#include "passes/filters/displaced/cells_source.h"
 
 /// The light that a relief's facets send out because they shine, and that they reflect of each
 /// other's: four floats a facet, of which the last is 0.

@@ -24,12 +24,12 @@ void passes_facets_bytes(facet_range range, const transfer_kind *kind, uint32_t 
 static lobe_resource declare(const facets_request *request, const char *name, size_t size) {
     char of_material[64];
     snprintf(of_material, sizeof of_material, "%s of material %u", name, request->material);
-    return lobe_graph_buffer(
-        request->graph,
-        &(lobe_buffer_description){.name = of_material,
-                                   .size = size,
-                                   .retained = request->kind->coloured ||
-                                               request->kind->emissive || request->in_parts});
+    return lobe_graph_buffer(request->graph,
+                             &(lobe_buffer_description){.name = of_material,
+                                                        .size = size,
+                                                        .retained = request->kind->coloured ||
+                                                                    request->kind->emissive ||
+                                                                    request->in_parts});
 }
 
 static uint32_t basis_cells(uint32_t quads) {

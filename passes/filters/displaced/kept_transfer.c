@@ -9,15 +9,10 @@
 enum { TRANSFER_FILE_VERSION = 7 };
 
 static uint64_t kind_digest(const transfer_kind *kind) {
-    const uint64_t numbers[] = {kind->order,
-                                kind->azimuths,
-                                kind->bounces,
-                                kind->normals,
-                                (uint64_t)kind->format,
-                                kind->coloured,
-                                kind->emissive,
-                                kind->widths,
-                                passes_transfer_facets(kind)};
+    const uint64_t numbers[] = {
+        kind->order,    kind->azimuths,         kind->bounces,
+        kind->normals,  (uint64_t)kind->format, kind->coloured,
+        kind->emissive, kind->widths,           passes_transfer_facets(kind)};
     return passes_digest_bytes(TRANSFER_FILE_VERSION, numbers, sizeof numbers);
 }
 

@@ -72,6 +72,8 @@ void main() {
     closure.persistence = !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
     closure.basis = basis;
+    for (uint i = 0u; i < EMISSION / 4u; ++i)
+        closure.mean[i] = texelFetch(transfer_map, ivec3(0, 0, i), 0);
     for (uint k = 0u; k < ORDER; ++k) {
         vec4 sum = vec4(0.0);
         for (uint channel = 0u; EMISSIVE && channel < 3u; ++channel)

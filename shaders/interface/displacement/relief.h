@@ -84,6 +84,7 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 #define TRANSFER_ENTRIES(order)        (TRANSFER_DIRECT_COUNT(order) + TRANSFER_INDIRECT_COUNT + 1u)
 #define TRANSFER_FIRST_LAYERS(order)   ((TRANSFER_ENTRIES(order) + (order) + 3u) / 4u)
 #define TRANSFER_FURTHER_LAYERS(order) ((TRANSFER_ENTRIES(order) + 3u) / 4u)
+#define TRANSFER_MAXIMUM_LAYERS        45u // of the largest order, where colours vary
 // Entries of emission of a channel, and layers of all three.
 #define TRANSFER_EMISSION(order)        ((order) + 1u)
 #define TRANSFER_EMISSION_LAYERS(order) ((3u * TRANSFER_EMISSION(order) + 3u) / 4u)
@@ -133,14 +134,16 @@ struct transfer_closure_constants {
     float direct;      // the part of diffuse light that a white relief reflects at once
     float padding;
     float4 emission[TRANSFER_MAXIMUM_ORDER]; // mean a m b, of all channels
+    float4 mean[TRANSFER_MAXIMUM_LAYERS];    // of all layers
 };
-INTERFACE_SIZE(transfer_closure_constants, 1984)
+INTERFACE_SIZE(transfer_closure_constants, 2704)
 INTERFACE_OFFSET(transfer_closure_constants, lacking, 1696)
 INTERFACE_OFFSET(transfer_closure_constants, visible, 1760)
 INTERFACE_OFFSET(transfer_closure_constants, lost, 1824)
 INTERFACE_OFFSET(transfer_closure_constants, persistence, 1828)
 INTERFACE_OFFSET(transfer_closure_constants, direct, 1832)
 INTERFACE_OFFSET(transfer_closure_constants, emission, 1840)
+INTERFACE_OFFSET(transfer_closure_constants, mean, 1984)
 
 // The map of facets' normals: of each bin, two layers of means over a cell: p a and p a d_x, p a
 // d_y, p a h; then p a d_x^2, p a d_y^2, p a d_x d_y, p a e, with d the place less the bin's mean,

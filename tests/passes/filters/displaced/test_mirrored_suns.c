@@ -1,4 +1,5 @@
-// What reliefs of metal mirror of suns on all sides of the viewer, against `displaced-reference`.
+// What reliefs, most of them of metal, show of suns on all sides of the viewer, against
+// `displaced-reference`.
 // relief_errors.c prints tables of it.
 
 #include <math.h>
@@ -161,34 +162,57 @@ static void ground_is_hidden_from_low_directions(void **state) {
     assert_true(error <= 1.1 * total);
 }
 
+/// Of 16 x 16 pixels of grooves, each 2 texels wide: by how much they are off, and their sum, over
+/// that of the reference.
+typedef struct near_outcome {
+    double error, ratio;
+} near_outcome;
+
+static near_outcome grooves_from_near(fixture *f, lobe_scene *scene, relief_side viewer,
+                                      relief_side sun, uint32_t samples) {
+    enum { SIDE = 16 };
+    hold_scene(f, scene);
+    relief_sides_look(scene, viewer);
+    relief_sides_shine(scene, sun);
+    picture_request request = {
+        .filter = "displaced-reference", .width = SIDE, .height = SIDE, .samples = samples};
+    lobe_frame truth = draw_scene(f, scene, &request);
+    request.filter = "displaced";
+    request.samples = 1;
+    lobe_frame filtered = draw_scene(f, scene, &request);
+    double error = 0, total = 0, found = 0;
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        const double expected = (double)pixel_at(&truth.radiance, i % SIDE, i / SIDE)[1];
+        const double own = (double)pixel_at(&filtered.radiance, i % SIDE, i / SIDE)[1];
+        error += fabs(own - expected);
+        total += expected;
+        found += own;
+    }
+    lobe_frame_free(&truth);
+    lobe_frame_free(&filtered);
+    hold_scene(f, NULL);
+    lobe_scene_destroy(&scene);
+    print_message("# %.3f, mean %.3f\n", error / total, found / total);
+    return (near_outcome){error / total, found / total};
+}
+
 /// Pixels of 2 x 5 texels whose own flanks face away from the viewer, who sees those behind, are no
 /// brighter than these. Measured: off by 0.36 of the mean; by more than all of it with their own
 /// flanks alone.
 static void flanks_behind_are_seen(void **state) {
-    enum { SIDE = 16, SAMPLES = 256 };
-    lobe_scene *scene = grooves_of_metal(1);
-    hold_scene(*state, scene);
-    const relief_side viewer = {25, 17};
-    relief_sides_look(scene, viewer);
-    relief_sides_shine(scene, (relief_side){45, viewer.azimuth + 90});
-    picture_request request = {
-        .filter = "displaced-reference", .width = SIDE, .height = SIDE, .samples = SAMPLES};
-    lobe_frame truth = draw_scene(*state, scene, &request);
-    request.filter = "displaced";
-    request.samples = 1;
-    lobe_frame filtered = draw_scene(*state, scene, &request);
-    double error = 0, total = 0;
-    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        const double expected = (double)pixel_at(&truth.radiance, i % SIDE, i / SIDE)[1];
-        error += fabs((double)pixel_at(&filtered.radiance, i % SIDE, i / SIDE)[1] - expected);
-        total += expected;
-    }
-    lobe_frame_free(&truth);
-    lobe_frame_free(&filtered);
-    hold_scene(*state, NULL);
-    lobe_scene_destroy(&scene);
-    print_message("# %.3f\n", error / total);
-    assert_true(error <= 0.5 * total);
+    const near_outcome metal = grooves_from_near(*state, grooves_of_metal(1), (relief_side){25, 17},
+                                                 (relief_side){45, 107}, 256);
+    assert_true(metal.error <= 0.5);
+}
+
+/// The same of diffuse light: of flanks that are turned away from the viewer, and in the shade of
+/// the others. Measured: off by 0.18 of the mean, which is 0.87 of the reference's; by 0.41, and
+/// 0.64, if they showed what they show to viewers everywhere.
+static void flanks_in_the_shade_are_hidden(void **state) {
+    const near_outcome diffuse = grooves_from_near(*state, grooves_of(relief_material(0.7), 1),
+                                                   (relief_side){45, 0}, (relief_side){50, 25}, 64);
+    assert_true(fabs(diffuse.ratio - 1) <= 0.15);
+    assert_true(diffuse.error <= 0.25);
 }
 
 int main(void) {
@@ -204,6 +228,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(ground_is_hidden_from_low_directions, fixture_create,
                                         fixture_destroy),
         cmocka_unit_test_setup_teardown(flanks_behind_are_seen, fixture_create, fixture_destroy),
+        cmocka_unit_test_setup_teardown(flanks_in_the_shade_are_hidden, fixture_create,
+                                        fixture_destroy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// The first level of the layers of emission (interface/displacement/relief.h): means over the facets
-// under each texel, of half the size of the relief; all within a window. A thread a texel.
+// The first level of the layers of emission (interface/displacement/relief.h): means over the
+// facets under each texel, of half the size of the relief; all within a window. A thread a texel.
 
 #include "filters/displaced/facets.glsl"
 #include "filters/displaced/facet_words.glsl"
