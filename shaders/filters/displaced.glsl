@@ -273,17 +273,23 @@ float relative_area(float area, polynomials direction) {
 }
 
 // Adds the closure: (d u^T + u d^T) / pi - u u^T (1^T d) / pi^2, with d what lacks, u the cosine.
-void close(inout channel_form form, polynomials viewer) {
-    polynomials lacking = polynomials(closure.lacking);
+// `cells`: see form_of().
+void close(inout channel_form form, polynomials viewer, float cells) {
+    polynomials lacking = scaled(polynomials(closure.lacking), cells);
     float cosine = INVERSE_PI * TRANSFER_COSINE * viewer.terms[0].x;
     form.indirect = sum_of(form.indirect, 1.0, lacking, cosine);
     form.indirect.terms[0].x +=
         TRANSFER_COSINE *
-        (INVERSE_PI * product(lacking, viewer) - INVERSE_PI * closure.lost * cosine);
+        (INVERSE_PI * product(lacking, viewer) - INVERSE_PI * cells * closure.lost * cosine);
+}
+
+// Where a channel's begin.
+uint first_entry(uint channel) {
+    return channel == 0u ? 0u : 4u * (FIRST_LAYERS + (channel - 1u) * FURTHER_LAYERS);
 }
 
 channel_form gather_channel(uint channel, polynomials viewer, float functions[ORDER]) {
-    uint first = channel == 0u ? 0u : 4u * (FIRST_LAYERS + (channel - 1u) * FURTHER_LAYERS);
+    uint first = first_entry(channel);
     float direct[ORDER];
     for (uint i = 0u; i < ORDER; ++i) {
         direct[i] = 0.0;
@@ -297,7 +303,6 @@ channel_form gather_channel(uint channel, polynomials viewer, float functions[OR
         for (uint j = 0u; j < TRANSFER_INDIRECT; ++j)
             form.indirect.terms[0][i] +=
                 entry_of_matrix(first + DIRECT_ENTRIES, i, j) * viewer.terms[0][j];
-    drawn.colour[channel] = entry(first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
     return form;
 }
 
@@ -314,14 +319,9 @@ float visible_area(float functions[ORDER]) {
     return sum;
 }
 
-reflected_form no_form() {
-    vec4 none[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    channel_form channel = channel_form(polynomials(none), polynomials(none));
-    return reflected_form(channel, channel, channel, 1.0);
-}
-
 // `viewer`: the polynomials of a direction, or a sum of such, and the same in the map's functions.
-reflected_form form_of(polynomials viewer, float functions[ORDER]) {
+// `cells`: how many the sum over cells is of, by area.
+reflected_form form_of(polynomials viewer, float functions[ORDER], float cells) {
     reflected_form form;
     form.red = gather_channel(0u, viewer, functions);
     if (COLOURED) {
@@ -329,7 +329,7 @@ reflected_form form_of(polynomials viewer, float functions[ORDER]) {
         form.blue = gather_channel(2u, viewer, functions);
         form.seen = visible_area(functions);
     } else {
-        close(form.red, viewer);
+        close(form.red, viewer, cells);
         form.seen = white_light(form.red);
     }
     return form;
@@ -357,7 +357,7 @@ reflected_form form_of_all() {
     float functions[ORDER];
     for (uint k = 0u; k < ORDER; ++k)
         functions[k] = INVERSE_PI * closure.basis.integrals[k / 4u][k % 4u];
-    reflected_form form = form_of(scaled(integrals_of_polynomials(), INVERSE_PI), functions);
+    reflected_form form = form_of(scaled(integrals_of_polynomials(), INVERSE_PI), functions, 1.0);
     float lacking = max(LEAST_LIT - form.seen, 0.0);
     leave_what_arrives(form.red);
     light_evenly(form.red, lacking, COLOURED ? drawn.colour.r : 1.0);
@@ -371,65 +371,79 @@ reflected_form form_of_all() {
     return form;
 }
 
-void scale_channel(inout channel_form form, float colour) {
-    form.direct = scaled(form.direct, colour);
-    // Between facets metal counts as well, which has nothing of the diffuse colour.
-    form.indirect = scaled(form.indirect, METALLIC_MAP ? 1.0 : colour * colour);
-}
-
-// The whole map's, as if its colours were those of the cell.
-reflected_form form_of_map(polynomials viewer, float functions[ORDER]) {
-    vec4 own[LAYERS];
-    vec3 colour = drawn.colour;
-    for (uint layer = 0u; layer < LAYERS; ++layer) {
-        own[layer] = transfer_layers[layer];
-        transfer_layers[layer] = closure.mean[layer];
-    }
-    reflected_form form = form_of(viewer, functions);
-    for (uint layer = 0u; layer < LAYERS; ++layer)
-        transfer_layers[layer] = own[layer];
-    if (COLOURED) {
-        vec3 colours = (colour + 0.01) / (drawn.colour + 0.01);
-        scale_channel(form.red, colours.r);
-        scale_channel(form.green, colours.g);
-        scale_channel(form.blue, colours.b);
-    }
-    drawn.colour = colour;
-    return form;
-}
-
-// So much of a form, of light at once and of light between facets, and of another.
-void mix_channel(inout channel_form form, vec2 factors, channel_form other, vec2 of_other) {
-    form.direct = sum_of(form.direct, factors.x, other.direct, of_other.x);
-    form.indirect = sum_of(form.indirect, factors.y, other.indirect, of_other.y);
-}
-
-void mix_form(vec2 factors, reflected_form other, vec2 of_other) {
-    mix_channel(drawn.form.red, factors, other.red, of_other);
-    if (COLOURED) {
-        mix_channel(drawn.form.green, factors, other.green, of_other);
-        mix_channel(drawn.form.blue, factors, other.blue, of_other);
-    }
-}
-
-// Divides by the area that is seen. Where that is less than the map's, which is the carrier's, the
-// viewer sees other cells behind this one: the map's mean. Otherwise cells that show little of
-// themselves would count as much as those that hide them. `lit`: a near facet is lit by light at
-// once, for which no ray is followed.
-void divide_form(polynomials viewer, float functions[ORDER], bool lit) {
-    float all = drawn.viewer.z;
+// The area that is seen of a cell, and of the map: as what a white relief reflects of a white sky
+// (see white_light()), where colours do not vary.
+vec2 seen_areas(polynomials viewer, float functions[ORDER]) {
     if (COLOURED)
-        all = max(product(polynomials(closure.visible), viewer), 1e-6);
-    float behind = max(all - drawn.form.seen, 0.0);
+        return vec2(visible_area(functions),
+                    max(product(polynomials(closure.visible), viewer), 1e-6));
+    float sum = product(polynomials(closure.lacking), viewer);
+    for (uint i = 0u; i < ORDER; ++i)
+        for (uint j = 0u; j < ORDER; ++j)
+            sum += closure.basis.integrals[i / 4u][i % 4u] * entry_of_matrix(0u, i, j) *
+                   functions[j];
+    for (uint i = 0u; i < TRANSFER_INDIRECT; ++i)
+        for (uint j = 0u; j < TRANSFER_INDIRECT; ++j)
+            sum += TRANSFER_INTEGRAL[i] * entry_of_matrix(DIRECT_ENTRIES, i, j) *
+                   viewer.terms[0][j];
+    return vec2(sum, drawn.viewer.z);
+}
+
+// Adds so much of the map's mean to a cell's, as if its colours were those of the cell.
+void add_cells_behind(float part) {
+    for (uint channel = 0u; channel < (COLOURED ? 3u : 1u); ++channel) {
+        uint first = first_entry(channel), last = first + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT;
+        float colour = part, between = part;
+        if (COLOURED) {
+            float factor = (entry(last) + 0.01) / (closure.mean[last / 4u][last % 4u] + 0.01);
+            colour *= factor;
+            // Between facets metal counts as well, which has nothing of the diffuse colour.
+            between *= METALLIC_MAP ? 1.0 : factor * factor;
+        }
+        for (uint i = first; i < last; ++i)
+            transfer_layers[i / 4u][i % 4u] +=
+                (i < first + DIRECT_ENTRIES ? colour : between) * closure.mean[i / 4u][i % 4u];
+    }
+}
+
+// So much of a form, of light at once and of light between facets.
+void add_channel(inout channel_form form, channel_form other, vec2 of_other) {
+    form.direct = sum_of(form.direct, 1.0, other.direct, of_other.x);
+    form.indirect = sum_of(form.indirect, 1.0, other.indirect, of_other.y);
+}
+
+void scale_channel(inout channel_form form, float factor) {
+    form.direct = scaled(form.direct, factor);
+    form.indirect = scaled(form.indirect, factor);
+}
+
+// Over the area that is seen. Where that is less than the map's, which is the carrier's, the viewer
+// sees other cells behind this one: the map's mean. Otherwise cells that show little of themselves
+// would count as much as those that hide them. `lit`: a near facet is lit by light at once, for
+// which no ray is followed.
+void find_form(polynomials viewer, float functions[ORDER], bool lit) {
     float near = NEAR ? drawn.near.share : 0.0;
-    float scale = (1.0 - near) / max(drawn.form.seen, all);
-    reflected_form of_map = no_form();
+    reflected_form of_all;
+    if (NEAR && near > 0.0)
+        of_all = form_of_all();
+    vec2 seen = seen_areas(viewer, functions);
+    float behind = max(seen.y - seen.x, 0.0) / seen.y;
     if (behind > 0.0)
-        of_map = form_of_map(viewer, functions);
-    mix_form(vec2(scale), of_map, vec2(scale * behind / all));
-    if (near > 0.0) {
-        reflected_form of_all = form_of_all();
-        mix_form(vec2(1.0), of_all, vec2(lit ? near : 0.0, near) / of_all.seen);
+        add_cells_behind(behind);
+    drawn.form = form_of(viewer, functions, 1.0 + behind);
+    float scale = (1.0 - near) / max(seen.x, seen.y);
+    scale_channel(drawn.form.red, scale);
+    if (COLOURED) {
+        scale_channel(drawn.form.green, scale);
+        scale_channel(drawn.form.blue, scale);
+    }
+    if (NEAR && near > 0.0) {
+        vec2 share = vec2(lit ? near : 0.0, near) / of_all.seen;
+        add_channel(drawn.form.red, of_all.red, share);
+        if (COLOURED) {
+            add_channel(drawn.form.green, of_all.green, share);
+            add_channel(drawn.form.blue, of_all.blue, share);
+        }
     }
 }
 
@@ -510,9 +524,9 @@ void gather_relief(surface_point surface, bool lit) {
     polynomials viewer = polynomials_of(drawn.viewer);
     float functions[ORDER];
     in_functions(viewer, functions);
-    drawn.form = no_form();
-    if (!NEAR || drawn.near.share < 1.0)
-        drawn.form = form_of(viewer, functions);
+    for (uint channel = 0u; channel < (COLOURED ? 3u : 1u); ++channel)
+        drawn.colour[channel] =
+            entry(first_entry(channel) + DIRECT_ENTRIES + TRANSFER_INDIRECT_COUNT);
     if (FACETS) {
         float area[ORDER];
         for (uint k = 0u; k < ORDER; ++k)
@@ -523,7 +537,7 @@ void gather_relief(surface_point surface, bool lit) {
         transfer_products(drawn.area.terms);
         transfer_products(drawn.mean_area.terms);
     }
-    divide_form(viewer, functions, lit);
+    find_form(viewer, functions, lit);
 }
 
 // Of light between facets, by albedo: sums of powers, each less than the one before by the same
