@@ -224,13 +224,14 @@ static void roughness_varies(void **state) {
     }
 }
 
-/// Red tops and green pits that shine, lit by nothing else. Measured: 0.0128; with the map's mean,
+/// Red tops and green pits that shine, lit by nothing else. Measured: 0.0128, seen from 71 degrees
+/// alone 0.022; with the map's mean,
 /// 0.5, which neither hides anything nor lights other facets, 0.35.
 static void pits_that_shine_light_their_walls(void **state) {
     double error = 0, sum = 0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (long_runs() ? 4 : 1); i++) {
         double outgoing[3], expected[3], found[3];
-        slope_plane_direction(5 + 22 * i, 0.3 + i, outgoing);
+        slope_plane_direction(71 - 22 * i, 3.3 - i, outgoing);
         coloured_relief relief = {.material = microfacet_material(LOBE_DISTRIBUTION_GGX, 1, 0),
                                   .emission = colour_map(SIDE, SIDE, by_height),
                                   .tiles = 40,
@@ -250,15 +251,15 @@ static void pits_that_shine_light_their_walls(void **state) {
             sum += expected[channel];
         }
     }
-    if (!(error <= 0.018 * sum))
+    if (!(error <= 0.03 * sum))
         fail_msg("%.4f", error / sum);
 }
 
 /// What facets emit and the light of the sky that they lose to others make up for each other.
 static void shining_reliefs_vanish_in_a_furnace(void **state) {
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (long_runs() ? 4 : 1); i++) {
         double outgoing[3], found[3];
-        slope_plane_direction(25 * i, 0.3 + i, outgoing);
+        slope_plane_direction(25 * ((i + 2) % 4), 0.3 + i, outgoing);
         coloured_relief relief = {
             .material = relief_material(0.6), .tiles = 40, .filter = "displaced", .samples = 64};
         for (int channel = 0; channel < 3; channel++)
