@@ -495,10 +495,8 @@ vec3 evaluate_footprint_microfacets(appearance fetched, uint light, vec3 halfway
     base_material frame = fetched.filtered;
     frame.normal = reflecting_normal(fetched, halfway);
     if (may_see_level_0(lobe_map())) {
-        float width = widened_width(fetched.base);
-        frame.width = mix(frame.width, width, fetched.base_share);
-        base = fetched.base_share *
-               evaluate_normal_distribution(fetched.base.normal, halfway, width);
+        frame.width = mix(frame.width, widened_width(fetched.base), fetched.base_share);
+        base = fetched.base_share * evaluate_base_distribution(fetched.base, halfway);
     }
     if (!WIDTH_COLOURS)
         return evaluate_microfacets(frame, fetched.diffuse_normal, mixture + base, halfway,

@@ -22,6 +22,10 @@ struct base_material {
     vec3 specular; // microfacets: F0; half-vector lobes: factor of every lobe's colour
     float width;   // microfacets: the distribution's parameter; lobes: factor of their widths
     float variance; // of normals under the pixel, which widens the lobes; 0: none
+    // Where these vary more in one direction than in others: the unit vector that way, and the
+    // difference from their variance in it, over that, [0, 1].
+    vec3 direction;
+    float uneven;
 };
 
 // A lobe's parameter, widened by the spread of normals inside a texel.
@@ -40,6 +44,8 @@ base_material assemble_material(surface_point surface, vec3 normal, vec4 base_co
         albedo *= surface.colour.rgb;
     base.normal = normal;
     base.variance = isotropic_variance(surface.curvature);
+    base.direction = vec3(0.0);
+    base.uneven = 0.0;
     if (MODEL == MODEL_MICROFACET) {
         float metallic = material.metallic * (METALLIC_MAP ? width.b : 1.0);
         // glTF 2.0, appendix B.2: a dielectric reflects 4 % at normal incidence.
@@ -82,6 +88,42 @@ float evaluate_normal_distribution(vec3 normal, vec3 half_vector, float paramete
                : normal_distribution(DISTRIBUTION, normal, half_vector, parameter);
 }
 
+// A lobe that normals make longer in one direction than across it is a round one of other half
+// vectors, scaled along both (Heitz, Dupuy, Hill, Neubelt, 2016, Real-Time Polygonal-Light Shading
+// with Linearly Transformed Cosines).
+struct rounded_half_vector {
+    vec3 half_vector;
+    float area;   // over that of the same half vectors before
+    float height; // of the half vector above the axis, over what it was before
+};
+
+// `own` is the parameter of the lobe without these normals, `widened` that of the round one.
+rounded_half_vector rounded(base_material base, vec3 axis, vec3 half_vector, float own,
+                            float widened) {
+    if (base.uneven <= 0.0)
+        return rounded_half_vector(half_vector, 1.0, 1.0);
+    float variance = 1.0 / base_lobe_concentration(DISTRIBUTION, widened);
+    float difference = base.uneven * max(
+        variance - 1.0 / base_lobe_concentration(DISTRIBUTION, own), 0.0) / variance;
+    vec3 along = base.direction - axis * dot(axis, base.direction);
+    along *= inversesqrt(max(dot(along, along), 1e-12));
+    vec3 across = cross(axis, along);
+    // Deviations become one.
+    float shorter = inversesqrt(1.0 + difference), longer = inversesqrt(1.0 - difference);
+    vec3 scaled = half_vector + ((shorter - 1.0) * dot(half_vector, along)) * along +
+                  ((longer - 1.0) * dot(half_vector, across)) * across;
+    float height = inversesqrt(dot(scaled, scaled));
+    return rounded_half_vector(height * scaled, shorter * longer * height * height * height,
+                               height);
+}
+
+float evaluate_base_distribution(base_material base, vec3 half_vector) {
+    float widened = widened_width(base);
+    rounded_half_vector as_round = rounded(base, base.normal, half_vector, base.width, widened);
+    return as_round.area * as_round.height *
+           evaluate_normal_distribution(base.normal, as_round.half_vector, widened);
+}
+
 // The microfacet frame around any distribution of half vectors. `mean_normal` may be shorter than
 // one: its product with the incoming direction is the mean of the texels' cosines.
 vec3 evaluate_microfacets(base_material base, vec3 mean_normal, float distribution,
@@ -110,8 +152,11 @@ vec3 evaluate_half_vector_lobes(base_material base, vec3 halfway) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LOBE_COUNT; ++i) {
         vec3 axis = rotate_from_pole(base.normal, material.lobe_direction[i].xyz);
+        float widened = widened_lobe_parameter(i, base);
+        rounded_half_vector as_round =
+            rounded(base, axis, halfway, half_vector_lobe_parameter(i, base.width), widened);
         sum += material.lobe_colour[i].rgb *
-               evaluate_half_vector_lobe(halfway, axis, widened_lobe_parameter(i, base));
+               (as_round.area * evaluate_half_vector_lobe(as_round.half_vector, axis, widened));
     }
     return sum;
 }
@@ -134,8 +179,8 @@ vec3 evaluate_base_material(base_material base, vec3 mean_normal, vec3 outgoing,
         return vec3(0.0);
     vec3 halfway = half_vector(incoming, outgoing);
     if (MODEL == MODEL_MICROFACET) {
+        float distribution = evaluate_base_distribution(base, halfway);
         base.width = widened_width(base);
-        float distribution = evaluate_normal_distribution(base.normal, halfway, base.width);
         return evaluate_microfacets(base, mean_normal, distribution, halfway, outgoing, incoming);
     }
     vec3 sum = base.specular * evaluate_half_vector_lobes(base, halfway);

@@ -7,6 +7,7 @@
 
 #include "shading/colours/filtered_material.glsl"
 #include "lib/lobe/characteristic_vector.glsl"
+#include "lib/lobe/direction_lobe.glsl"
 
 layout(constant_id = SPECIALISE_INTERPOLATED) const bool INTERPOLATED = false;
 
@@ -15,7 +16,27 @@ struct level_0_normals {
     vec3 mean;      // at most of unit length
     float variance; // (1 - |mean|)/|mean|, as variance_of_mean_normal
     float kept;     // [0, 1]: the part that a mask keeps
+    // In which direction they vary most, and by how much more, see base_material.
+    vec3 direction;
+    float uneven;
 };
+
+level_0_normals one_normal(vec3 normal, float kept) {
+    return level_0_normals(normal, 0.0, kept, vec3(0.0), 0.0);
+}
+
+// `first` and `second` are deviations: half of a covariance each.
+void take_directions(inout level_0_normals normals, vec3 first, vec3 second) {
+    vec3 axis = mean_direction(normals.mean, vec3(0.0, 0.0, 1.0));
+    direction_lobe lobe = principal_lobe(
+        direction_lobe(axis, first - axis * dot(axis, first), second - axis * dot(axis, second)));
+    float most = dot(lobe.first, lobe.first), least = dot(lobe.second, lobe.second);
+    normals.direction = lobe.first * inversesqrt(max(most, 1e-20));
+    // Of normals that do not change evenly, three are seldom spread alike to all sides: only what
+    // hardly varies across counts as long.
+    float uneven = (most - least) / max(most + least, 1e-20);
+    normals.uneven = uneven * uneven * uneven * uneven;
+}
 
 // The part that level 0 has of a footprint's appearance; the maps have the rest. Under a mask each
 // counts by what it keeps: a pixel that shows a part of the surface may have a hole at its centre.
@@ -48,13 +69,12 @@ vec3 level_0_normal(surface_point surface, vec2 coordinates, float relief) {
 // apart are not the mean and the covariance: the box is two texels wide there.
 level_0_normals normals_of_level_0(surface_point surface, map_area area, float relief) {
     if (!may_see_level_0(lobe_map()) || area.share >= 1.0)
-        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0, 1.0);
+        return one_normal(vec3(0.0, 0.0, 1.0), 1.0);
     vec2 centre = map_coordinates(lobe_map(), surface.coordinates, 1.0);
     if (!has_map(MAP_NORMAL))
-        return level_0_normals(vec3(0.0, 0.0, 1.0), 0.0, kept_at(surface, centre));
+        return one_normal(vec3(0.0, 0.0, 1.0), kept_at(surface, centre));
     if (!INTERPOLATED)
-        return level_0_normals(level_0_normal(surface, centre, relief), 0.0,
-                               kept_at(surface, centre));
+        return one_normal(level_0_normal(surface, centre, relief), kept_at(surface, centre));
     float part = CLAMPED_MAPS != 0u ? exp2(-max(area.level - 1.0, 0.0)) : 1.0;
     vec2 dx = map_coordinates(MAP_NORMAL, surface.coordinates_dx, 0.0) * part * inversesqrt(8.0);
     vec2 dy = map_coordinates(MAP_NORMAL, surface.coordinates_dy, 0.0) * part * inversesqrt(6.0);
@@ -71,8 +91,13 @@ level_0_normals normals_of_level_0(surface_point surface, map_area area, float r
                                               difference_squared(b, mean),
                                               difference_squared(c, mean)));
     float length = max(length(mean), 1e-4);
-    return level_0_normals(mean, complement / ((1.0 + length) * length),
-                           dot(kept, vec3(1.0 / 3.0)));
+    level_0_normals normals = one_normal(mean, dot(kept, vec3(1.0 / 3.0)));
+    normals.variance = complement / ((1.0 + length) * length);
+    // The covariance of three points by two differences.
+    float others = max(kept.y + kept.z, 1.0);
+    take_directions(normals, sqrt(scale * kept.y * kept.z / others) * (b - c),
+                    sqrt(scale * kept.x * (1.0 + kept.x / others)) * (a - mean));
+    return normals;
 }
 
 // `normals`: of level 0.
@@ -82,6 +107,8 @@ base_material level_0_material(surface_point surface, level_0_normals normals) {
                             facing_normal(mean_direction(normals.mean, vec3(0.0, 0.0, 1.0)),
                                           surface));
     base.variance += normals.variance;
+    base.direction = normals.direction;
+    base.uneven = normals.uneven * normals.variance / max(base.variance, 1e-20);
     take_width(base, surface);
     return base;
 }
