@@ -185,6 +185,8 @@ static known_member known[] = {
     MEMBER(transfer_closure_constants, lost, 3),
     MEMBER(transfer_closure_constants, persistence, 4),
     MEMBER(transfer_closure_constants, direct, 5),
+    MEMBER(transfer_closure_constants, emission, 7),
+    MEMBER(transfer_closure_constants, mean, 8),
     MEMBER(transfer_constants, width, 0),
     MEMBER(transfer_constants, height, 1),
     MEMBER(transfer_constants, azimuths, 2),

@@ -119,6 +119,14 @@ static void find_parts(const footprint *patch, footprint_light *light) {
     }
 }
 
+/// The square of Lambert's part, integrated over half vectors.
+static double square_of_diffuse(const footprint *patch) {
+    double sum = 0;
+    for (int j = 0; j < 3; j++)
+        sum += all_weights * patch->diffuse[j] * patch->diffuse[j];
+    return sum;
+}
+
 /// Lambert's part, too: what a lobe adds to that hardly shows where it is darker.
 static void find_squares(const footprint *patch, footprint_light *light) {
     light->shown = light->whites = 0;
@@ -129,8 +137,7 @@ static void find_squares(const footprint *patch, footprint_light *light) {
                 part * light->truth[i][j] * (light->truth[i][j] + 2 * patch->diffuse[j]);
         light->whites += part * 3 * white * white;
     }
-    for (int j = 0; j < 3; j++)
-        light->shown += all_weights * patch->diffuse[j] * patch->diffuse[j];
+    light->shown += square_of_diffuse(patch);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -207,6 +214,9 @@ void passes_footprint_normalise(plane_sample *lobes, uint32_t count) {
 void passes_footprint_complete(footprint *patch) {
     passes_footprint_normalise(patch->lobes, patch->count);
     average_colours(patch);
+    patch->facing = (facing_light){0};
+    for (uint32_t k = 0; k < patch->count; k++)
+        passes_facing_add_sample(&patch->facing, &patch->lobes[k], patch->lobes[k].weight);
     for (uint32_t i = 0; i < patch->light_count; i++) {
         footprint_light *light = &patch->lights[i];
         light->variance = variances[i];
@@ -339,11 +349,29 @@ static footprint_error compare_light(const footprint *patch, const footprint_lig
     return error;
 }
 
+/// Of Lambert's part, which half-vector lobes light about the mean normal, whatever the bins.
+static double compare_diffuse(const footprint *patch, const bin_sums *sums, uint32_t count) {
+    if (!patch->microfacet)
+        return 0;
+    double mass = 0;
+    for (uint32_t k = 0; k < count; k++)
+        mass += sums[k].by_mass.places.weight;
+    facing_light facing = {0};
+    for (uint32_t k = 0; k < count; k++)
+        passes_facing_add_bin(&facing, &sums[k].by_mass.places,
+                              sums[k].by_mass.places.weight / mass);
+    return square_of_diffuse(patch) * passes_facing_error(&facing, &patch->facing);
+}
+
 void passes_footprint_compare(const footprint *patch, const plane_sample *lobes,
                               uint32_t lobe_count, const plane_mixture *mixture,
                               footprint_error errors[FOOTPRINT_LIGHTS]) {
     bin_sums sums[MOMENT_MAXIMUM_BINS] = {0};
     const uint32_t count = collect(patch, lobes, lobe_count, mixture, sums);
-    for (uint32_t i = 0; i < patch->light_count; i++)
+    const double diffuse = compare_diffuse(patch, sums, count);
+    for (uint32_t i = 0; i < patch->light_count; i++) {
         errors[i] = compare_light(patch, &patch->lights[i], sums, count);
+        errors[i].mean_colour += diffuse;
+        errors[i].bin_colours += diffuse;
+    }
 }

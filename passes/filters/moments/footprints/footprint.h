@@ -1,6 +1,7 @@
 #ifndef PASSES_FILTERS_MOMENTS_FOOTPRINTS_FOOTPRINT_H
 #define PASSES_FILTERS_MOMENTS_FOOTPRINTS_FOOTPRINT_H
 
+#include "passes/filters/moments/footprints/facing.h"
 #include "passes/filters/moments/mixture_fit.h"
 
 /// The lobes under a pixel, to compare what bins make of them with what they are. Lobes are
@@ -32,6 +33,7 @@ typedef struct footprint {
     footprint_light lights[FOOTPRINT_LIGHTS];
     double colour[3];     ///< mean specular colour, as averaged maps have it
     double diffuse[3];    ///< what Lambert's part reflects, as densities of lobes do
+    facing_light facing;  ///< of all lobes of microfacets
     double diffuse_error; ///< of the diffuse colour of averaged maps, relative to all colours
     bool mirrors_alike;   ///< all lobes mirror as much of their mass
 } footprint;

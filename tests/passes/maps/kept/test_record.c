@@ -568,11 +568,11 @@ static void what_models_are_made_from_has_its_file(void **state) {
     }
 }
 
-/// Heights, their scale, colours and settings have files of their own; what does not matter shares
-/// one.
+/// Heights, their scale, colours, emission and settings have files of their own; what does not
+/// matter shares one.
 static void what_a_relief_is_made_from_has_its_file(void **state) {
     size_t files = 0;
-    for (int change = 0; change < 6; change++) {
+    for (int change = 0; change < 7; change++) {
         lobe_scene *scene = relief_square(change == 1 ? 0.7f : 0.8f);
         lobe_material *material = &scene->materials[0];
         if (change == 2)
@@ -583,13 +583,15 @@ static void what_a_relief_is_made_from_has_its_file(void **state) {
             material->height_scale *= 0.5f;
         if (change == 5)
             material->emissive[0] = 0.25f;
+        if (change == 6)
+            material->normal_scale = 0.5f;
         drawing drawing;
         start_relief(*state, scene, 0, &drawing);
         drawing.settings[0] = "azimuths=4";
         (void)picture(&drawing, test_folder.path);
-        files += change < 5;
+        files += change < 6;
         assert_int_equal(kept(), files);
-        assert_true(restored(&drawing) == (change == 5));
+        assert_true(restored(&drawing) == (change == 6));
         stop(&drawing);
         lobe_scene_destroy(&scene);
     }
