@@ -398,7 +398,8 @@ void add_cells_behind(float part) {
             float factor = (entry(last) + 0.01) / (closure.mean[last / 4u][last % 4u] + 0.01);
             colour *= factor;
             // Between facets metal counts as well, which has nothing of the diffuse colour.
-            between *= METALLIC_MAP ? 1.0 : factor * factor;
+            // As bright a cell in a dark map has no more than its colours make of it.
+            between *= METALLIC_MAP ? 1.0 : factor * min(factor, 1.0);
         }
         for (uint i = first; i < last; ++i)
             transfer_layers[i / 4u][i % 4u] +=
@@ -419,7 +420,7 @@ void scale_channel(inout channel_form form, float factor) {
 
 // Over the area that is seen. Where that is less than the map's, which is the carrier's, the viewer
 // sees other cells behind this one: the map's mean. Otherwise cells that show little of themselves
-// would count as much as those that hide them. `lit`: a near facet is lit by light at once, for
+// would count as much as those that hide them. Displaced triangles hide each other by themselves. `lit`: a near facet is lit by light at once, for
 // which no ray is followed.
 void find_form(polynomials viewer, float functions[ORDER], bool lit) {
     float near = NEAR ? drawn.near.share : 0.0;
@@ -427,11 +428,12 @@ void find_form(polynomials viewer, float functions[ORDER], bool lit) {
     if (NEAR && near > 0.0)
         of_all = form_of_all();
     vec2 seen = seen_areas(viewer, functions);
-    float behind = max(seen.y - seen.x, 0.0) / seen.y;
+    float whole = DISPLACED ? LEAST_VISIBLE * seen.y : seen.y;
+    float behind = max(whole - seen.x, 0.0) / seen.y;
     if (behind > 0.0)
         add_cells_behind(behind);
     drawn.form = form_of(viewer, functions, 1.0 + behind);
-    float scale = (1.0 - near) / max(seen.x, seen.y);
+    float scale = (1.0 - near) / max(seen.x, whole);
     scale_channel(drawn.form.red, scale);
     if (COLOURED) {
         scale_channel(drawn.form.green, scale);
@@ -494,8 +496,9 @@ vec3 emission_of_relief(surface_point surface, vec3 near) {
     float of_plane = max(product(map, viewer), 1e-6);
     float plane_to_all = INVERSE_PI * product(map, integrals_of_polynomials());
     vec3 falls = max(of_map, 0.0) * plane_to_all / max(of_map_to_all * of_plane, vec3(1e-9));
-    vec3 behind = max(of_plane - visible, 0.0) * falls * sent_to_all / visible_to_all;
-    vec3 sum = (max(sent, 0.0) + behind) / max(visible, of_plane);
+    float whole = DISPLACED ? LEAST_VISIBLE * of_plane : of_plane;
+    vec3 behind = max(whole - visible, 0.0) * falls * sent_to_all / visible_to_all;
+    vec3 sum = (max(sent, 0.0) + behind) / max(visible, whole);
     return NEAR ? mix(sum, near + max(of_others, 0.0) / visible_to_all, drawn.near.share) : sum;
 }
 

@@ -22,8 +22,8 @@ struct base_material {
     vec3 specular; // microfacets: F0; half-vector lobes: factor of every lobe's colour
     float width;   // microfacets: the distribution's parameter; lobes: factor of their widths
     float variance; // of normals under the pixel, which widens the lobes; 0: none
-    // Where these vary more in one direction than in others: the unit vector that way, and the
-    // difference from their variance in it, over that, [0, 1].
+    // The direction in which these vary most, a unit vector, and by how much more than on the mean
+    // of it and across, relative to that mean, [0, 1].
     vec3 direction;
     float uneven;
 };
@@ -102,14 +102,16 @@ rounded_half_vector rounded(base_material base, vec3 axis, vec3 half_vector, flo
                             float widened) {
     if (base.uneven <= 0.0)
         return rounded_half_vector(half_vector, 1.0, 1.0);
-    float variance = 1.0 / base_lobe_concentration(DISTRIBUTION, widened);
-    float difference = base.uneven * max(
-        variance - 1.0 / base_lobe_concentration(DISTRIBUTION, own), 0.0) / variance;
-    vec3 along = base.direction - axis * dot(axis, base.direction);
+    // What variance normals add, over that of both.
+    float added = 1.0 - base_lobe_concentration(DISTRIBUTION, widened) /
+                            max(base_lobe_concentration(DISTRIBUTION, own), 1e-6);
+    float difference = base.uneven * clamp(added, 0.0, 1.0);
+    // A normal that turns that way turns the axis with it.
+    vec3 along = base.direction * dot(base.normal, axis) - base.normal * dot(base.direction, axis);
     along *= inversesqrt(max(dot(along, along), 1e-12));
     vec3 across = cross(axis, along);
     // Deviations become one.
-    float shorter = inversesqrt(1.0 + difference), longer = inversesqrt(1.0 - difference);
+    float shorter = inversesqrt(1.0 + difference), longer = inversesqrt(max(1.0 - difference, 1e-6));
     vec3 scaled = half_vector + ((shorter - 1.0) * dot(half_vector, along)) * along +
                   ((longer - 1.0) * dot(half_vector, across)) * across;
     float height = inversesqrt(dot(scaled, scaled));

@@ -16,7 +16,7 @@ struct level_0_normals {
     vec3 mean;      // at most of unit length
     float variance; // (1 - |mean|)/|mean|, as variance_of_mean_normal
     float kept;     // [0, 1]: the part that a mask keeps
-    // In which direction they vary most, and by how much more, see base_material.
+    // The direction in which they vary most, and by how much more, as in base_material.
     vec3 direction;
     float uneven;
 };
@@ -108,7 +108,8 @@ base_material level_0_material(surface_point surface, level_0_normals normals) {
                                           surface));
     base.variance += normals.variance;
     base.direction = normals.direction;
-    base.uneven = normals.uneven * normals.variance / max(base.variance, 1e-20);
+    base.uneven =
+        INTERPOLATED ? normals.uneven * normals.variance / max(base.variance, 1e-20) : 0.0;
     take_width(base, surface);
     return base;
 }

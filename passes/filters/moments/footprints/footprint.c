@@ -215,7 +215,7 @@ void passes_footprint_complete(footprint *patch) {
     passes_footprint_normalise(patch->lobes, patch->count);
     average_colours(patch);
     patch->facing = (facing_light){0};
-    for (uint32_t k = 0; k < patch->count; k++)
+    for (uint32_t k = 0; patch->microfacet && k < patch->count; k++)
         passes_facing_add_sample(&patch->facing, &patch->lobes[k], patch->lobes[k].weight);
     for (uint32_t i = 0; i < patch->light_count; i++) {
         footprint_light *light = &patch->lights[i];

@@ -52,6 +52,9 @@ void main() {
             add_facet(lower + 1u, 0.5 * columns[x] * rows[y]);
         }
     }
+    // Half floats end here.
+    for (uint i = 0u; i < 4u * LAYERS; ++i)
+        entries[i] = clamp(entries[i], -65504.0, 65504.0);
     for (uint i = 0u; i < LAYERS; ++i)
         imageStore(transfer_map, ivec3(target, i),
                    vec4(entries[4u * i], entries[4u * i + 1u], entries[4u * i + 2u],
