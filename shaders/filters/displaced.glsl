@@ -420,8 +420,8 @@ void scale_channel(inout channel_form form, float factor) {
 
 // Over the area that is seen. Where that is less than the map's, which is the carrier's, the viewer
 // sees other cells behind this one: the map's mean. Otherwise cells that show little of themselves
-// would count as much as those that hide them. Displaced triangles hide each other by themselves. `lit`: a near facet is lit by light at once, for
-// which no ray is followed.
+// would count as much as those that hide them. Displaced triangles hide each other by themselves.
+// `lit`: a near facet is lit by light at once, for which no ray is followed.
 void find_form(polynomials viewer, float functions[ORDER], bool lit) {
     float near = NEAR ? drawn.near.share : 0.0;
     reflected_form of_all;

@@ -111,7 +111,8 @@ rounded_half_vector rounded(base_material base, vec3 axis, vec3 half_vector, flo
     along *= inversesqrt(max(dot(along, along), 1e-12));
     vec3 across = cross(axis, along);
     // Deviations become one.
-    float shorter = inversesqrt(1.0 + difference), longer = inversesqrt(max(1.0 - difference, 1e-6));
+    float shorter = inversesqrt(1.0 + difference);
+    float longer = inversesqrt(max(1.0 - difference, 1e-6));
     vec3 scaled = half_vector + ((shorter - 1.0) * dot(half_vector, along)) * along +
                   ((longer - 1.0) * dot(half_vector, across)) * across;
     float height = inversesqrt(dot(scaled, scaled));

@@ -9,8 +9,8 @@ layout(constant_id = SPECIALISE_RELIEF) const bool RELIEF = false;
 
 // Radiance towards a viewer nearer to the horizon than this is that of a viewer there.
 const float LEAST_HEIGHT = 0.02;
-// Cells that the viewer hardly sees count as showing at least this part of the mean visible area, as
-// a ratio of two small numbers is not reliable: some cells of a white furnace were black.
+// Cells that the viewer hardly sees count as showing at least this part of the mean visible area,
+// as a ratio of two small numbers is not reliable: some cells of a white furnace were black.
 const float LEAST_VISIBLE = 0.15;
 
 vec3 viewer_of(surface_point surface) {

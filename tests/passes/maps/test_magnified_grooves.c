@@ -69,6 +69,11 @@ static void grooves_shine_to_two_sides_alone(void **state) {
             check(*state, filters[i], &metal, beside, beside ? 0.45 : 0.25);
     for (int beside = 0; beside < 2; beside++)
         check(*state, "moments", &lobes, beside, 0.06);
+    // Aslant to the grooves.
+    lobe_material tilted = lobes;
+    tilted.lobes[0] = (lobe_base_lobe){{0.2f, -0.1f, 0.975f}, 120, {1, 1, 1}};
+    for (int beside = 0; beside < 2; beside++)
+        check(*state, "moments", &tilted, beside, 0.1);
 }
 
 int main(void) {
