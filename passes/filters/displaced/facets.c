@@ -20,7 +20,8 @@ void passes_facets_bytes(facet_range range, const transfer_kind *kind, uint32_t 
     bytes[2] = sizeof(struct transfer_basis_constants);
 }
 
-/// What colours do not change outlives the frame where these can, and what later parts need.
+/// What neither colours nor emission change outlives the frame where these can, and what later
+/// parts need.
 static lobe_resource declare(const facets_request *request, const char *name, size_t size) {
     char of_material[64];
     snprintf(of_material, sizeof of_material, "%s of material %u", name, request->material);
