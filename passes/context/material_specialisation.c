@@ -32,10 +32,14 @@ static bool any(const float colour[3]) {
     return colour[0] > 0 || colour[1] > 0 || colour[2] > 0;
 }
 
+bool passes_material_emits(const device_material *material) {
+    return any(material->material->emissive);
+}
+
 void passes_material_specialise(const device_material *material, specialisation_list *list) {
     passes_lobes_specialise(material, material->map_bits, list);
     passes_specialise(list, SPECIALISE_DIFFUSE, any(material->material->base_colour));
-    passes_specialise(list, SPECIALISE_EMISSION, any(material->material->emissive));
+    passes_specialise(list, SPECIALISE_EMISSION, passes_material_emits(material));
 }
 
 void passes_lobes_specialise(const device_material *material, uint32_t map_bits,

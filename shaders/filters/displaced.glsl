@@ -57,11 +57,10 @@ const uint DIRECT_ENTRIES = TRANSFER_DIRECT_COUNT(ORDER);
 const uint FIRST_LAYERS = TRANSFER_FIRST_LAYERS(ORDER);
 const uint FURTHER_LAYERS = TRANSFER_FURTHER_LAYERS(ORDER);
 // The visible area is last.
-const uint LAYERS = COLOURED ? FIRST_LAYERS + 2u * FURTHER_LAYERS
-                             : (FACETS ? FIRST_LAYERS : FURTHER_LAYERS);
+const uint LAYERS = COLOURED || FACETS ? TRANSFER_CHANNEL_LAYERS(ORDER, COLOURED) : FURTHER_LAYERS;
 
 // Layers of emission begin here.
-const uint FIRST_EMISSION = FIRST_LAYERS + (COLOURED ? 2u * FURTHER_LAYERS : 0u);
+const uint FIRST_EMISSION = TRANSFER_CHANNEL_LAYERS(ORDER, COLOURED);
 
 // Cells that see less of the sky than this are lit by other facets, as the flat carrier by the sky.
 const float LEAST_LIT = 0.05;

@@ -72,8 +72,7 @@ static void add_bounces(cells_build *build, uint32_t channel) {
 // Texels
 
 uint32_t passes_transfer_layers(const transfer_kind *kind) {
-    return TRANSFER_FIRST_LAYERS(kind->order) +
-           (kind->coloured ? 2 * TRANSFER_FURTHER_LAYERS(kind->order) : 0) +
+    return TRANSFER_CHANNEL_LAYERS(kind->order, kind->coloured) +
            (kind->emissive ? TRANSFER_EMISSION_LAYERS(kind->order) : 0);
 }
 
@@ -135,9 +134,9 @@ static lobe_pass *add_emission(const cells_build *build, lobe_resource colours) 
                    &(lobe_binding){.name = "transfer_words", .resource = source->seen->words});
     lobe_pass_read(pass, &(lobe_binding){.name = "source_block", .resource = light.sent});
     lobe_pass_read(pass, &(lobe_binding){.name = "emitted_block", .resource = light.emitted});
-    const uint32_t layers = passes_transfer_layers(source->kind),
-                   count = TRANSFER_EMISSION_LAYERS(source->kind->order);
-    write_layers(build, pass, layers - count, count);
+    const transfer_kind *kind = source->kind;
+    write_layers(build, pass, TRANSFER_CHANNEL_LAYERS(kind->order, kind->coloured),
+                 TRANSFER_EMISSION_LAYERS(kind->order));
     dispatch(build, pass, "filters/displaced/emission/cell_emission.comp", 0);
     return pass;
 }

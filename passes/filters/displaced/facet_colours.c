@@ -29,8 +29,7 @@ bool passes_has_widths_on_relief(const device_material *material) {
 }
 
 bool passes_has_emissive_relief(const device_material *material) {
-    const float *emissive = material->material->emissive;
-    return passes_has_relief(material) && (emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0) &&
+    return passes_has_relief(material) && passes_material_emits(material) &&
            passes_lies_on_relief(material, MAP_EMISSIVE);
 }
 

@@ -8,8 +8,8 @@
 #include "filters/displaced/facets.glsl"
 #include "filters/displaced/facet_colours.glsl"
 #include "filters/displaced/facet_words.glsl"
+#include "lib/displacement/facets_under_texel.glsl"
 #include "lib/displacement/transfer_basis.glsl"
-#include "lib/map/box_reduction.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -57,15 +57,7 @@ void main() {
         return;
     for (uint i = 0u; i < MAXIMUM_ENTRIES; ++i)
         entries[i] = 0.0;
-    ivec2 size = relief_size();
-    vec3 columns = box_weights(size.x, int(texel.x)), rows = box_weights(size.y, int(texel.y));
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            uint lower = facet_index(2 * ivec2(texel) + ivec2(x, y), false);
-            add_facet(lower, 0.5 * columns[x] * rows[y]);
-            add_facet(lower + 1u, 0.5 * columns[x] * rows[y]);
-        }
-    }
+    add_facets_under(texel, relief_size());
     for (uint i = 0u; i < uint(imageSize(transfer_map).z); ++i)
         imageStore(transfer_map, ivec3(target, i),
                    vec4(entries[4u * i], entries[4u * i + 1u], entries[4u * i + 2u],

@@ -22,8 +22,8 @@ layout(set = 0, binding = 2, std430) readonly buffer basis_block {
 };
 
 const uint DIRECT = TRANSFER_DIRECT_COUNT(ORDER);
-const uint EMISSION = 4u * (TRANSFER_FIRST_LAYERS(ORDER) +
-                            (COLOURED ? 2u * TRANSFER_FURTHER_LAYERS(ORDER) : 0u));
+const uint LAYERS = TRANSFER_CHANNEL_LAYERS(ORDER, COLOURED);
+const uint EMISSION = 4u * LAYERS; // the first of its entries
 
 float entry(uint i) {
     return texelFetch(transfer_map, ivec3(0, 0, i / 4u), 0)[i % 4u];
@@ -72,7 +72,7 @@ void main() {
     closure.persistence = !COLOURED && rest > 1e-4 ? clamp(1.0 - next / rest, 0.0, 0.999) : 0.0;
     closure.direct = direct;
     closure.basis = basis;
-    for (uint i = 0u; i < EMISSION / 4u; ++i)
+    for (uint i = 0u; i < LAYERS; ++i)
         closure.mean[i] = texelFetch(transfer_map, ivec3(0, 0, i), 0);
     for (uint k = 0u; k < ORDER; ++k) {
         vec4 sum = vec4(0.0);

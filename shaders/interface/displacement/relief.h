@@ -84,7 +84,10 @@ INTERFACE_OFFSET(height_field_constants, largest_value, 148)
 #define TRANSFER_ENTRIES(order)        (TRANSFER_DIRECT_COUNT(order) + TRANSFER_INDIRECT_COUNT + 1u)
 #define TRANSFER_FIRST_LAYERS(order)   ((TRANSFER_ENTRIES(order) + (order) + 3u) / 4u)
 #define TRANSFER_FURTHER_LAYERS(order) ((TRANSFER_ENTRIES(order) + 3u) / 4u)
-#define TRANSFER_MAXIMUM_LAYERS        45u // of the largest order, where colours vary
+// Of all channels, one unless colours vary: before those of emission.
+#define TRANSFER_CHANNEL_LAYERS(order, coloured)                                                   \
+    (TRANSFER_FIRST_LAYERS(order) + ((coloured) ? 2u * TRANSFER_FURTHER_LAYERS(order) : 0u))
+#define TRANSFER_MAXIMUM_LAYERS 45u // of the largest order, where colours vary
 // Entries of emission of a channel, and layers of all three.
 #define TRANSFER_EMISSION(order)        ((order) + 1u)
 #define TRANSFER_EMISSION_LAYERS(order) ((3u * TRANSFER_EMISSION(order) + 3u) / 4u)

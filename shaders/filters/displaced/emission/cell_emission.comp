@@ -6,7 +6,7 @@
 
 #include "filters/displaced/facets.glsl"
 #include "filters/displaced/facet_words.glsl"
-#include "lib/map/box_reduction.glsl"
+#include "lib/displacement/facets_under_texel.glsl"
 #include "lib/number/constants.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -43,15 +43,7 @@ void main() {
         return;
     for (uint i = 0u; i < 4u * LAYERS; ++i)
         entries[i] = 0.0;
-    ivec2 size = relief_size();
-    vec3 columns = box_weights(size.x, int(texel.x)), rows = box_weights(size.y, int(texel.y));
-    for (int y = 0; y < box_taps(size.y); ++y) {
-        for (int x = 0; x < box_taps(size.x); ++x) {
-            uint lower = facet_index(2 * ivec2(texel) + ivec2(x, y), false);
-            add_facet(lower, 0.5 * columns[x] * rows[y]);
-            add_facet(lower + 1u, 0.5 * columns[x] * rows[y]);
-        }
-    }
+    add_facets_under(texel, relief_size());
     // Half floats end here.
     for (uint i = 0u; i < 4u * LAYERS; ++i)
         entries[i] = clamp(entries[i], -65504.0, 65504.0);
