@@ -73,3 +73,10 @@ void passes_plane_sums_add(plane_sums *sums, const plane_sample *s, double weigh
     sums->moments[2] += weight * x * y;
     sums->variance += weight * s->variance;
 }
+
+void passes_plane_sums_covariance(const plane_sums *sums, double covariance[3]) {
+    const double x = sums->place[0] / sums->weight, y = sums->place[1] / sums->weight;
+    covariance[0] = fmax(sums->moments[0] / sums->weight - x * x, 0);
+    covariance[1] = fmax(sums->moments[1] / sums->weight - y * y, 0);
+    covariance[2] = sums->moments[2] / sums->weight - x * y;
+}

@@ -30,6 +30,8 @@ typedef struct plane_sums {
 } plane_sums;
 
 void passes_plane_sums_add(plane_sums *sums, const plane_sample *sample, double weight);
+/// The covariance (xx, yy, xy) of the places about their mean; the weight is above 0.
+void passes_plane_sums_covariance(const plane_sums *sums, double covariance[3]);
 
 /// The covariance (xx, yy, xy) at a place of a variance of one about it, and its inverse.
 void passes_plane_distortion(const double place[2], double covariance[3], double inverse[3]);

@@ -2,31 +2,33 @@
 
 #include <math.h>
 
-/// Of the viewers, from upright: as low as relief is usually looked at.
-static const double angle = 70 * M_PI / 180;
+/// 70 degrees from upright, as low as relief is usually looked at.
+static const double viewers[FACING_VIEWERS][3] = {
+    {0.9396926207859084, 0, 0.3420201433256687},
+    {0.6644630243886747, 0.6644630243886747, 0.3420201433256687},
+    {0, 0.9396926207859084, 0.3420201433256687},
+    {-0.6644630243886747, 0.6644630243886747, 0.3420201433256687},
+    {-0.9396926207859084, 0, 0.3420201433256687},
+    {-0.6644630243886747, -0.6644630243886747, 0.3420201433256687},
+    {0, -0.9396926207859084, 0.3420201433256687},
+    {0.6644630243886747, -0.6644630243886747, 0.3420201433256687},
+};
 
-static void find_viewer(uint32_t viewer, double direction[3]) {
-    const double azimuth = 2 * M_PI * viewer / FACING_VIEWERS;
-    direction[0] = sin(angle) * cos(azimuth);
-    direction[1] = sin(angle) * sin(azimuth);
-    direction[2] = cos(angle);
+/// What the plane's coordinates count in a direction's first two (lib/lobe/lambert_plane.glsl).
+static double scale_at(const double place[2]) {
+    return sqrt(fmax(1 - 0.25 * (place[0] * place[0] + place[1] * place[1]), 0));
 }
 
-/// Of directions whose third coordinate is 1 - square / 2 on the mean
-/// (lib/lobe/lambert_plane.glsl).
+/// Of directions whose third coordinate is 1 - square / 2 on the mean.
 static double cosine_at(const double place[2], double square, const double viewer[3]) {
-    const double scale = sqrt(fmax(1 - 0.25 * (place[0] * place[0] + place[1] * place[1]), 0));
-    return scale * (place[0] * viewer[0] + place[1] * viewer[1]) + (1 - 0.5 * square) * viewer[2];
+    return scale_at(place) * (place[0] * viewer[0] + place[1] * viewer[1]) +
+           (1 - 0.5 * square) * viewer[2];
 }
 
 void passes_facing_add_sample(facing_light *light, const plane_sample *sample, double weight) {
-    const double *place = sample->place;
-    for (uint32_t i = 0; i < FACING_VIEWERS; i++) {
-        double viewer[3];
-        find_viewer(i, viewer);
-        light->seen[i] +=
-            weight * fmax(cosine_at(place, place[0] * place[0] + place[1] * place[1], viewer), 0);
-    }
+    const double *place = sample->place, square = place[0] * place[0] + place[1] * place[1];
+    for (uint32_t i = 0; i < FACING_VIEWERS; i++)
+        light->seen[i] += weight * fmax(cosine_at(place, square, viewers[i]), 0);
 }
 
 /// Of a normal number.
@@ -40,13 +42,11 @@ static double mean_above_zero(double mean, double deviation) {
 void passes_facing_add_bin(facing_light *light, const plane_sums *sums, double weight) {
     const double place[2] = {sums->place[0] / sums->weight, sums->place[1] / sums->weight};
     const double square = (sums->moments[0] + sums->moments[1]) / sums->weight;
+    const double scale = scale_at(place);
     double covariance[3];
-    for (int i = 0; i < 3; i++)
-        covariance[i] = sums->moments[i] / sums->weight - place[i == 1] * place[i != 0];
-    const double scale = sqrt(fmax(1 - 0.25 * (place[0] * place[0] + place[1] * place[1]), 0));
+    passes_plane_sums_covariance(sums, covariance);
     for (uint32_t i = 0; i < FACING_VIEWERS; i++) {
-        double viewer[3];
-        find_viewer(i, viewer);
+        const double *viewer = viewers[i];
         const double x = scale * viewer[0] - place[0] * viewer[2];
         const double y = scale * viewer[1] - place[1] * viewer[2];
         const double variance =

@@ -113,7 +113,9 @@ static void find_parts(const footprint *patch, footprint_light *light) {
         sum += light->parts[i] * mean_of_channels(light->truth[i]);
     }
     const double level = bright * (sum / all_weights + diffuse);
-    for (uint32_t i = 0; i < FOOTPRINT_PLACES && light->variance < variances[1]; i++) {
+    if (light->variance >= variances[1])
+        return;
+    for (uint32_t i = 0; i < FOOTPRINT_PLACES; i++) {
         const double ratio = (mean_of_channels(light->truth[i]) + diffuse) / fmax(level, 1e-30);
         light->parts[i] /= 1 + ratio * ratio;
     }
@@ -252,16 +254,14 @@ typedef struct footprint_bin {
 } footprint_bin;
 
 static bell bell_of_bin(const plane_sums *places, double mass, double base) {
-    double covariance[3], inverse[3];
+    double covariance[3], distortion[3], inverse[3];
     bell result;
     for (int i = 0; i < 2; i++)
         result.place[i] = places->place[i] / places->weight;
-    passes_plane_distortion(result.place, covariance, inverse);
-    for (int i = 0; i < 3; i++) {
-        int a = i == 1, b = i != 0;
-        double moment = places->moments[i] / places->weight - result.place[a] * result.place[b];
-        covariance[i] = base * covariance[i] + (i == 2 ? moment : fmax(moment, 0));
-    }
+    passes_plane_distortion(result.place, distortion, inverse);
+    passes_plane_sums_covariance(places, covariance);
+    for (int i = 0; i < 3; i++)
+        covariance[i] += base * distortion[i];
     double determinant = fmax(covariance[0] * covariance[1] - covariance[2] * covariance[2], 1e-16);
     result.peak = 0.5 * mass / (2 * M_PI * sqrt(determinant));
     result.inverse[0] = covariance[1] / determinant;
